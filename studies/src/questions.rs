@@ -1,5 +1,5 @@
-//! Three questions about what cells do and feel: the tables of
-//! `docs/evidence/results/{cortex,confinement,gradients}.md`.
+//! Four questions about what cells do and feel: the tables of
+//! `docs/evidence/results/{cortex,confinement,gradients,swing}.md`.
 //!
 //! `cargo run --release -p studies -- questions TABLE` prints one of them; with `--write` it becomes a file of
 //! `docs/tables`.
@@ -7,6 +7,7 @@
 mod confinement;
 mod cortex;
 mod gradients;
+mod swing;
 
 use anyhow::Result;
 use clap::{Args, builder::PossibleValuesParser};
@@ -27,13 +28,15 @@ pub(crate) struct Flags {
 
 type Run = fn() -> Result<Vec<Table>>;
 
-const TABLES: [(&str, Run); 3] = [
+const TABLES: [(&str, Run); 4] = [
     // Threshold, speed and shape from droplet to cortex.
     ("cortex", cortex::cortex),
     // Speed over the width of a channel, with friction.
     ("confinement", confinement::confinement),
     // Turning of swimmers in gradients of activity.
     ("gradients", gradients::gradients),
+    // Swing of an unstable swimmer in a tube: plane or helix.
+    ("swing", swing::swing),
 ];
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {

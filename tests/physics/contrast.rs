@@ -258,6 +258,7 @@ fn stresslet_errors(region: Region, droplets: &[Droplet], exact: &Exact, nodes: 
             numbers,
             viscosities,
             inside,
+            membrane: None,
             enclosed,
             axisymmetric: false,
             on_grid: false,

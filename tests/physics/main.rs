@@ -32,6 +32,7 @@ mod particles_inside;
 mod pressure;
 mod recommended;
 mod relaxation;
+mod releases;
 mod solids;
 mod stabiliser;
 mod stresslets;

@@ -37,11 +37,15 @@ fn each_crate_builds_no_more_than_it_uses() {
 #[test]
 fn each_crate_ships_the_licences() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    let font = std::fs::read(root.join("crates/motile-output/fonts/OFL.txt")).expect("the licence of the font");
+    assert!(std::fs::read(root.join("bindings/python/LICENSE-OFL")).is_ok_and(|found| found == font));
     for name in ["LICENSE-APACHE", "LICENSE-MIT"] {
         let text = std::fs::read(root.join(name)).expect("a licence");
         assert!(text.len() > 1000, "{name}");
-        for folder in std::fs::read_dir(root.join("crates")).expect("the crates") {
-            let path = folder.expect("a crate").path().join(name);
+        let crates = std::fs::read_dir(root.join("crates")).expect("the crates");
+        let crates = crates.map(|folder| folder.expect("a crate").path());
+        for folder in crates.chain([root.join("bindings/python")]) {
+            let path = folder.join(name);
             assert!(std::fs::read(&path).is_ok_and(|found| found == text), "{} differs", path.display());
         }
     }

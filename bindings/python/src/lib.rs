@@ -1,6 +1,7 @@
 //! The compiled part of the Python package `motile`.
 
 mod error;
+mod outline;
 mod scene;
 mod setup;
 mod steady;
@@ -13,6 +14,8 @@ mod work;
 mod _motile {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use super::outline::read_outline;
     #[pymodule_export]
     use super::scene::Scene;
     #[pymodule_export]

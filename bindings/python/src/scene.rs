@@ -17,7 +17,10 @@ use motile::scene::{
     Body, Every, Handle, Observer as _, SceneError, StepSize, System, Warnings, checkpoint::Checkpoint,
 };
 use motile::setup::{AnyFlow, Built, Setup as Description};
-use motile_output::{DropletMeter, Look, ParaView, Raster, Snapshot, SolidColour};
+use motile::space_droplets::SpaceBody;
+use motile_output::{
+    DropletMeter, Look, ParaView, Raster, Snapshot, SolidColour, SpaceCsv, SpaceParaView, SpaceSnapshot,
+};
 
 use crate::error::{failed, of_setup, refused};
 use crate::setup::Setup;
@@ -29,6 +32,9 @@ use crate::work::{BETWEEN_LOOKS, unless_interrupted};
 const MARGIN: f64 = 2.0;
 /// Default spacing of the flow in pictures (length scales of the scene).
 const SPACING: f64 = 0.1;
+/// Default number of samples of the flow along a side of pictures in three dimensions, and the side (length scales).
+const CELLS: usize = 72;
+const VIEW: f64 = 7.0;
 
 type AnyScene = motile::scene::Scene<AnyFlow>;
 
@@ -36,6 +42,8 @@ type AnyScene = motile::scene::Scene<AnyFlow>;
 struct State {
     scene: AnyScene,
     droplets: Vec<Handle<ActiveDroplet>>,
+    /// Droplets in three dimensions without symmetry.
+    space: Option<Handle<SpaceBody>>,
     meters: Vec<DropletMeter>,
     /// Values of the droplets' meters, droplet after droplet, record after record.
     records: Vec<f64>,
@@ -81,11 +89,11 @@ impl Scene {
         })?;
         py.detach(|| {
             let (built, scale, unit) = made.map_err(|error| of_setup(&error))?;
-            let Built { mut scene, droplets, .. } = built;
+            let Built { mut scene, droplets, space, .. } = built;
             let meters = droplets.iter().map(|&droplet| DropletMeter::of(scene.system_mut(), droplet));
             let meters = meters.collect::<Result<_, _>>().map_err(failed)?;
             let (records, warnings, laws) = (Vec::new(), Warnings::default(), Vec::new());
-            let state = State { scene, droplets, meters, records, warnings, laws };
+            let state = State { scene, droplets, space, meters, records, warnings, laws };
             Ok(Self { state: Mutex::new(state), description: description.clone(), scale, unit })
         })
     }
@@ -131,12 +139,15 @@ impl State {
                 "stopped from Python".into()
             })
         };
-        let Self { scene, meters, records, warnings, .. } = self;
+        let Self { scene, meters, records, warnings, space, .. } = self;
         let mut record = |system: &mut System<AnyFlow>| -> Result<(), Box<dyn Error + Send + Sync>> {
             warnings.look(system);
             for meter in &*meters {
                 let record = meter.record(system)?;
                 records.extend(meter.row(&record));
+            }
+            if let Some(body) = *space {
+                records.extend(rows_in_space(system, body)?.into_iter().flatten());
             }
             Ok(())
         };
@@ -152,6 +163,50 @@ impl State {
             (Ok(()), None) => Ok(()),
         }
     }
+}
+
+/// Rows of the table of all droplets in three dimensions.
+fn rows_in_space(
+    system: &mut System<AnyFlow>,
+    body: Handle<SpaceBody>,
+) -> Result<Vec<Vec<f64>>, Box<dyn Error + Send + Sync>> {
+    let (time, seen) = (system.time(), system.observe(body)?);
+    let droplets = system.body(body)?.droplets();
+    let row = |(number, seen)| Ok(SpaceCsv::row(time, seen, droplets.smallest_gap(number)?));
+    seen.iter().enumerate().map(row).collect()
+}
+
+impl State {
+    /// Droplets in three dimensions, for what only they have.
+    fn in_space(&self, index: usize) -> PyResult<Handle<SpaceBody>> {
+        let body = self.space.ok_or_else(|| failed("the scene is two-dimensional or axisymmetric"))?;
+        let count = self.count();
+        if index < count {
+            Ok(body)
+        } else {
+            Err(failed(format!("there is no droplet {index}: the scene has {count}")))
+        }
+    }
+
+    /// Number of droplets.
+    fn count(&self) -> usize {
+        let in_space = self.space.and_then(|body| self.scene.body(body).ok()).map(|body| body.names().len());
+        in_space.unwrap_or(self.droplets.len())
+    }
+
+    /// Names of the values of a record.
+    fn names(&self) -> Vec<&'static str> {
+        match (self.space, self.meters.first()) {
+            (Some(_), _) => SpaceCsv::columns(true),
+            (None, Some(meter)) => meter.names().to_vec(),
+            (None, None) => vec!["time"],
+        }
+    }
+}
+
+/// Points in three dimensions as an array of shape (n, 3).
+fn array_in_space<'py>(py: Python<'py>, points: &[[f64; 3]]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    PyArray1::from_slice(py, points.as_flattened()).reshape([points.len(), 3])
 }
 
 #[pymethods]
@@ -178,15 +233,13 @@ impl Scene {
     /// Names of what is recorded of a droplet, the time first.
     #[getter]
     fn names(&self) -> PyResult<Vec<&'static str>> {
-        let state = self.lock()?;
-        Ok(state.meters.first().map_or_else(|| vec!["time"], |meter| meter.names().to_vec()))
+        Ok(self.lock()?.names())
     }
 
     /// All records: an array of records by droplets by names.
     fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let state = self.lock()?;
-        let names = state.meters.first().map_or(1, |meter| meter.names().len());
-        let droplets = state.meters.len();
+        let (names, droplets) = (state.names().len(), state.count());
         let count = state.records.len() / (names * droplets).max(1);
         PyArray1::from_slice(py, &state.records).reshape([count, droplets, names])
     }
@@ -206,7 +259,58 @@ impl Scene {
     /// Number of droplets.
     #[getter]
     fn droplet_count(&self) -> PyResult<usize> {
-        Ok(self.lock()?.droplets.len())
+        Ok(self.lock()?.count())
+    }
+
+    /// True for droplets in three dimensions without symmetry.
+    #[getter]
+    fn lacks_symmetry(&self) -> PyResult<bool> {
+        Ok(self.lock()?.space.is_some())
+    }
+
+    /// Surface of a droplet in three dimensions: points of shape (n, 3), numbers of the corners of triangles of shape
+    /// (m, 3), and at the points concentrations, tensions and velocities of shape (n, 3).
+    #[allow(clippy::type_complexity)]
+    fn mesh<'py>(
+        &self,
+        py: Python<'py>,
+        droplet: usize,
+    ) -> PyResult<(
+        Bound<'py, PyArray2<f64>>,
+        Bound<'py, PyArray2<i64>>,
+        Bound<'py, PyArray1<f64>>,
+        Bound<'py, PyArray1<f64>>,
+        Bound<'py, PyArray2<f64>>,
+    )> {
+        let mesh = py.detach(|| {
+            let mut state = self.lock()?;
+            let body = state.in_space(droplet)?;
+            state.scene.system_mut().evaluate().map_err(failed)?;
+            state.scene.body(body).map_err(failed)?.droplets().droplets()[droplet].mesh().map_err(failed)
+        })?;
+        let corners: Vec<i64> = mesh.triangles.iter().flatten().map(|&corner| corner as i64).collect();
+        let corners = PyArray1::from_vec(py, corners).reshape([mesh.triangles.len(), 3])?;
+        let [concentrations, tensions] = [mesh.concentrations, mesh.tensions].map(|list| PyArray1::from_vec(py, list));
+        let velocities = array_in_space(py, &mesh.velocities)?;
+        Ok((array_in_space(py, &mesh.points)?, corners, concentrations, tensions, velocities))
+    }
+
+    /// Velocities of the fluid (length per time) at points in three dimensions, arrays of shape (n, 3).
+    fn velocities_in_space<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyArray2<f64>>,
+        error: f64,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points: Vec<[f64; 3]> =
+            points.try_readonly()?.as_array().rows().into_iter().map(|row| [row[0], row[1], row[2]]).collect();
+        let found = py.detach(|| {
+            let mut state = self.lock()?;
+            let body = state.in_space(0)?;
+            state.scene.system_mut().evaluate().map_err(failed)?;
+            state.scene.body(body).map_err(failed)?.droplets().velocities_at(&points, error).map_err(failed)
+        })?;
+        array_in_space(py, &found)
     }
 
     /// Warnings of the records so far, the worst of each kind.
@@ -219,6 +323,11 @@ impl Scene {
     #[getter]
     fn minimum_gap(&self) -> PyResult<Option<f64>> {
         let state = self.lock()?;
+        if let Some(body) = state.space {
+            let droplets = state.scene.body(body).map_err(failed)?.droplets();
+            let gaps = (0..state.count()).map(|number| droplets.smallest_gap(number).map_err(failed));
+            return Ok(gaps.collect::<PyResult<Vec<_>>>()?.into_iter().flatten().reduce(f64::min));
+        }
         let gaps = [state.scene.system().minimum_gap(), state.scene.system().minimum_wall_gap()];
         Ok(gaps.into_iter().flatten().reduce(f64::min))
     }
@@ -256,6 +365,9 @@ impl Scene {
                     ("force_upper", Some(forces.on_walls[1])),
                     ("force_bodies_x", Some(forces.on_bodies.x)),
                     ("force_bodies_y", Some(forces.on_bodies.y)),
+                    ("force_obstacles_x", Some(forces.on_obstacles.x)),
+                    ("force_obstacles_y", Some(forces.on_obstacles.y)),
+                    ("force_plates", Some(forces.on_plates)),
                 ])
             }))
         })
@@ -325,6 +437,12 @@ impl Scene {
     fn observe<'py>(&self, py: Python<'py>, droplet: usize) -> PyResult<Bound<'py, PyDict>> {
         let entries = py.detach(|| {
             let mut state = self.lock()?;
+            if state.space.is_some() {
+                let body = state.in_space(droplet)?;
+                let rows = rows_in_space(state.scene.system_mut(), body).map_err(failed)?;
+                let values = rows[droplet].iter().map(|value| value.is_finite().then_some(*value));
+                return Ok(SpaceCsv::columns(true).into_iter().zip(values).skip(1).collect());
+            }
             let droplet = Self::droplet(&state, droplet)?;
             Ok::<_, PyErr>(state.scene.observe(droplet).map_err(failed)?.entries())
         })?;
@@ -376,6 +494,9 @@ impl Scene {
     fn svg(&self, py: Python<'_>, spacing: Option<f64>, look: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
         let look = look_of(look, self.unit)?;
         py.detach(|| {
+            if let Some(seen) = self.seen_in_space(spacing)? {
+                return look.space_svg(&seen, &[]).map_err(failed);
+            }
             let seen = self.seen(spacing)?;
             look.svg(&seen, &[]).map_err(failed)
         })
@@ -392,6 +513,9 @@ impl Scene {
     ) -> PyResult<()> {
         let look = look_of(look, self.unit)?;
         py.detach(move || {
+            if let Some(seen) = self.seen_in_space(spacing)? {
+                return look.write_space_picture(&seen, &[], path).map_err(failed);
+            }
             let seen = self.seen(spacing)?;
             look.write_picture(&seen, &[], path).map_err(failed)
         })
@@ -402,6 +526,10 @@ impl Scene {
     fn write_paraview(&self, py: Python<'_>, folder: PathBuf, spacing: Option<f64>) -> PyResult<()> {
         py.detach(|| {
             let mut state = self.lock()?;
+            if let Some(body) = state.space {
+                let mut files = SpaceParaView::create(folder, body).map_err(failed)?;
+                return files.observe(state.scene.system_mut()).map_err(failed);
+            }
             let raster = self.raster(&mut state, spacing)?;
             let mut files = ParaView::create(folder, raster).map_err(failed)?;
             files.observe(state.scene.system_mut()).map_err(failed)
@@ -513,6 +641,14 @@ fn solid_colour(name: &str) -> PyResult<SolidColour> {
 }
 
 impl Scene {
+    /// State of droplets in three dimensions without symmetry; none in other scenes.
+    fn seen_in_space(&self, spacing: Option<f64>) -> PyResult<Option<SpaceSnapshot>> {
+        let mut state = self.lock()?;
+        let Some(body) = state.space else { return Ok(None) };
+        let cells = spacing.map_or(CELLS, |spacing| (VIEW * self.scale / spacing).clamp(4.0, 400.0) as usize);
+        SpaceSnapshot::take(state.scene.system_mut(), body, cells).map(Some).map_err(failed)
+    }
+
     fn seen(&self, spacing: Option<f64>) -> PyResult<Snapshot> {
         let mut state = self.lock()?;
         let raster = self.raster(&mut state, spacing)?;

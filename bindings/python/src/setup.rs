@@ -194,6 +194,11 @@ impl Setup {
         Ok(of_class.into_iter().chain(keys.extract::<Vec<String>>()?).collect())
     }
 
+    /// Bodies where they start and the text of the scene file, for notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("motile._html")?.call_method1("of_setup", (slf,))
+    }
+
     fn __repr__(&self) -> PyResult<String> {
         Ok(format!("motile.Setup.from_toml(\"\"\"\n{}\"\"\")", self.to_toml()?))
     }

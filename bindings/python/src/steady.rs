@@ -177,6 +177,11 @@ impl SteadyState {
         Ok(all)
     }
 
+    /// Picture and what is measured, for notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("motile._html")?.call_method1("of_steady", (slf,))
+    }
+
     fn __repr__(&self) -> PyResult<String> {
         Ok(format!("<steady state: speed {:.6}, residual {:.0e}>", self.speed()?, self.residual()))
     }

@@ -92,6 +92,7 @@ def test_truth_is_recovered_from_exact_numbers() -> None:
     assert result.contains({ACTIVITY: -0.7, DIFFUSION: 0.105}) and not result.contains({ACTIVITY: -0.9})
 
 
+@pytest.mark.slow
 def test_truth_is_recovered_from_exact_shapes() -> None:
     # The outline is turned and moved, and the dye has a unit of its own.
     region = motile.channel(6, 3)
@@ -113,6 +114,7 @@ def test_truth_is_recovered_from_exact_shapes() -> None:
     assert result.degrees_of_freedom == 17 - 2 + 17 - 1 + 17 + 2 - 2
 
 
+@pytest.mark.slow
 def test_jacobian_agrees_with_differences() -> None:
     setup = swimmer(region=motile.channel(6, 3))
     angles = np.linspace(0.1, 6.0, 9)
@@ -192,6 +194,7 @@ def draws(count: int) -> tuple[int, int]:
     return inside, alone
 
 
+@pytest.mark.slow
 def test_coverage_of_few_draws() -> None:
     # Fewer than 8 of 10 have a probability of 1.2 % at 95 %.
     inside, alone = draws(10)
@@ -205,6 +208,22 @@ def test_coverage() -> None:
     assert 90 <= inside <= 100 and 90 <= alone <= 100, (inside, alone)
 
 
+@pytest.mark.slow
+def test_published_speeds() -> None:
+    # Cowley's thesis prints |v| = A exp(-l/10) + c (figures 3.1 and 3.2) and D = 0.1 (table A.1), but no excluded volume.
+    printed = {(-2, 100): (0.20, 0.016), (-4, 100): (0.34, 0.051), (-5, 100): (0.42, 0.061), (-4, 200): (0.22, 0.012)}
+    data = []
+    for (activity, viscosity), (a, c) in printed.items():
+        speed = a * float(np.exp(-1.2)) + c
+        changes = {ACTIVITY: float(activity), VISCOSITY: float(viscosity)}
+        data.append(motile.Measured("speed", speed, 0.1 * speed, changes=changes))
+    result = motile.fit(swimmer(-4, nodes=64, region=motile.channel(12, 2)), {DIFFUSION: (0.03, 0.3)}, data)
+    assert result.values[DIFFUSION] == pytest.approx(0.106, abs=5e-4)
+    assert result.errors[DIFFUSION] == pytest.approx(0.021, abs=5e-4)
+    assert result.chi2 == pytest.approx(2.2, abs=0.05) and result.degrees_of_freedom == 3 and not result.remarks
+
+
+@pytest.mark.slow
 def test_only_ratios_of_stresses_are_identified() -> None:
     setup = swimmer(region=motile.channel(6, 3))
     data = [
@@ -261,6 +280,7 @@ def test_profile_bounds_and_samples() -> None:
     assert "ended at its bound" in repr(bound) and bound.profile(ACTIVITY).open == (True, False)
 
 
+@pytest.mark.slow
 def test_samples() -> None:
     pytest.importorskip("emcee")
     setup = swimmer()
@@ -283,6 +303,7 @@ def test_samples_need_emcee(monkeypatch: pytest.MonkeyPatch) -> None:
         result.sample(10)
 
 
+@pytest.mark.slow
 def test_a_run() -> None:
     # Speeds of a start, with fixed steps: derivatives are differences.
     setup = swimmer(-0.8).replace({"step": {"fixed": 0.2}})

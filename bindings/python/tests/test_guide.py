@@ -74,13 +74,3 @@ def test_first_page() -> None:
     failures, count = doctest.testmod(motile)
     assert count > 0 and not failures
 
-
-def test_notebook() -> None:
-    nbformat = pytest.importorskip("nbformat")
-    from nbclient import NotebookClient
-
-    notebook = nbformat.read(Path(__file__).parents[1] / "notebook.ipynb", as_version=4)
-    NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
-    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-    kinds = {kind for output in outputs for kind in output.get("data", {})}
-    assert {"image/png", "image/svg+xml"} <= kinds and not any(o.output_type == "error" for o in outputs)

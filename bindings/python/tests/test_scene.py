@@ -1,6 +1,7 @@
 """Scenes: runs, interruptions, state and output."""
 
 import copy
+import importlib.util
 import json
 import multiprocessing
 import os
@@ -197,6 +198,58 @@ def test_three_dimensions(region: object) -> None:
     method = motile.integral(nodes=48, elements=192)
     swimmer = motile.steady(motile.Setup(region=region, method=method, droplets=[motile.droplet(-1)]))
     assert 0.08 < swimmer.speed < 0.11
+
+
+def test_three_dimensions_without_symmetry(tmp_path: Path) -> None:
+    particles = {"excluded_volume": {"step": 2.0}}
+    droplets = [
+        motile.droplet(-1, particles=particles, position=[-1.3, 0.2, 0.0], heading=[1.0, 0.0, 0.5]),
+        motile.droplet(-1, particles=particles, position=[1.3, 0.0, 0.3], heading=[-1.0, 0.5, 0.0]),
+    ]
+    setup = motile.Setup(region=motile.space(), method=motile.harmonics(6), droplets=droplets)
+    assert pickle.loads(pickle.dumps(setup)) == setup
+    scene = setup.build()
+    assert scene.droplets == [] and len(scene.space_droplets) == 2
+    track = scene.run(0.2, every=0.1)
+    assert track["speed"].shape == (3, 2) and (track["speed"] > 0.05).all()
+    assert np.allclose(track["volume"], 4 / 3 * np.pi, rtol=1e-6)
+    first = scene.space_droplets[0]
+    points, triangles = first.points, first.triangles
+    assert points.shape[1] == 3 and triangles.max() == len(points) - 1
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    volume = np.einsum("ij,ij->i", a - first.position, np.cross(b - first.position, c - first.position)).sum() / 6
+    assert volume == pytest.approx(4 / 3 * np.pi, rel=0.03)
+    assert first.concentration.shape == first.tension.shape == (len(points),)
+    # The fluid on the surface moves as the fluid next to it.
+    assert scene.velocity_at(points[:5]) == pytest.approx(first.velocities[:5], abs=1e-3)
+    assert first.heading == pytest.approx(np.array([1.0, 0.0, 0.5]) / np.sqrt(1.25), abs=0.2)
+    assert scene.minimum_gap == pytest.approx(track["gap"][-1].min())
+    with pytest.raises(motile.Error, match="velocity_at"):
+        scene.sample([[0.0, 0.0]])
+    scene.save(tmp_path / "state")
+    again, twin = setup.build(), copy.copy(scene)
+    again.load(tmp_path / "state")
+    assert again.run(0.3)["speed"][-1].tolist() == scene.run(0.3)["speed"][-1].tolist() == twin.run(0.3)["speed"][-1].tolist()
+    scene.picture(tmp_path / "pair.png")
+    assert scene._repr_svg_().startswith("<svg")
+    scene.write_paraview(tmp_path / "vtk")
+    assert (tmp_path / "vtk" / "surface.pvd").exists()
+    with pytest.raises(motile.Error, match="droplets\\[0\\].heading"):
+        motile.Setup(region=motile.plane(), droplets=[motile.droplet(heading=[1, 0, 0])]).build()
+
+
+@pytest.mark.skipif(importlib.util.find_spec("meshio") is None, reason="needs meshio")
+def test_surfaces_are_read_by_another_reader(tmp_path: Path) -> None:
+    meshio = importlib.import_module("meshio")
+    setup = motile.Setup(region=motile.space(), method=motile.harmonics(6), droplets=[motile.droplet(-4, heading=[0, 1, 1])])
+    scene = setup.build()
+    scene.write_paraview(tmp_path)
+    droplet = scene.space_droplets[0]
+    found = meshio.read(tmp_path / "surface_0000.vtu")
+    assert np.allclose(found.points, droplet.points)
+    assert (found.cells_dict["triangle"] == droplet.triangles).all()
+    assert np.allclose(found.point_data["concentration"].ravel(), droplet.concentration, rtol=1e-6)
+    assert np.allclose(found.point_data["velocity"], droplet.velocities, atol=1e-6)
 
 
 def test_sixteen_droplets() -> None:

@@ -1,5 +1,5 @@
 //! Steps a second of scenes of 1, 4 and 16 droplets on the host, as `tests/speed.mjs` measures them in Chromium:
-//! `cargo run --profile host --example steps`.
+//! `cargo run --release -p motile-web --example steps`.
 
 use std::time::Instant;
 

@@ -169,6 +169,14 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_body_force(force)?, ..self })
     }
 
+    /// Adds friction with the walls of a channel, as [`ActiveInterface::with_wall_friction`] does.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ActiveInterface::with_wall_friction`].
+    pub fn with_wall_friction(self, viscosity: f64) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_wall_friction(viscosity)?, ..self })
+    }
+
     /// Makes a force act on the fluid inside, as [`ActiveInterface::with_force`] does.
     ///
     /// # Errors

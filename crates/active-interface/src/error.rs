@@ -138,6 +138,18 @@ impl InterfaceError {
         Self::refused(what, "rates are not negative", "Use a weaker field, or a higher rate")
     }
 
+    /// Returns the error for friction that a field makes negative.
+    pub(crate) fn negative_friction(friction: f64, Vec2 { x, y }: Vec2) -> Self {
+        let what = format!("the friction with its field is {} at {}", told(friction), place(x, y));
+        Self::refused(what, "friction is not negative", "Use a weaker field, or a higher friction")
+    }
+
+    /// Returns the error for friction with walls that do not exist.
+    pub(crate) fn no_walls_to_rub() -> Self {
+        let what = "the friction with walls needs the straight walls of a channel";
+        Self::refused(what, "there are none", "Use a channel, or leave the friction with walls out")
+    }
+
     /// Returns the error for a marker of an axisymmetric interface that has no mirror image.
     pub(crate) fn not_axisymmetric(marker: Vec2) -> Self {
         let what = format!("the marker at {} has no mirror image in the x axis", place(marker.x, marker.y));

@@ -17,7 +17,7 @@ pub(crate) mod spectral;
 use std::sync::Arc;
 
 use motile_base::{InputError, Membrane, PeriodicSeries, Vec2, polygon::CrossingFinder};
-use motile_scene::{FluidView, points};
+use motile_scene::{FluidView, StepInfo, points};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -27,7 +27,7 @@ use crate::{
     field::{Felt, middles_of},
     noise::Fluctuations,
 };
-use bending::Bending;
+use bending::{Bending, Stiffness};
 use body_force::BodyForce;
 use filter::ShortWaveFilter;
 use geometry::{Geometry, equidistribute, motion_rate};
@@ -95,6 +95,9 @@ pub(crate) struct Law {
     pub(crate) cortex: Cortex,
     /// Friction xi with a substrate (force times time per length squared).
     pub(crate) friction: f64,
+    /// Viscosity of the film between the interface and the walls of a channel (stress times time), 0 without friction
+    /// with walls.
+    pub(crate) wall_film: f64,
     /// Force on the fluid inside, if there is one.
     pub(crate) body_force: Option<BodyForce>,
 }
@@ -189,6 +192,17 @@ pub struct ActiveInterface {
     pub(crate) felt: Option<Box<Felt>>,
     /// Noise on the particles, if there is any.
     pub(crate) noise: Option<Box<Fluctuations>>,
+}
+
+/// Takes the mean motion along a closed curve off the motions of its markers (length per time). Markers then do not
+/// tread around a steady shape, which would seem to change to the stabiliser of bending if they did.
+fn stop_treading(geometry: &Geometry, motions: &mut [Vec2], slip: &mut [f64]) {
+    let along = motions.iter().zip(&geometry.tangents).map(|(motion, tau)| motion.dot(*tau)).sum::<f64>();
+    let mean = along / motions.len() as f64;
+    for ((motion, slip), tau) in motions.iter_mut().zip(slip).zip(&geometry.tangents) {
+        *motion -= mean * *tau;
+        *slip += mean;
+    }
 }
 
 /// Implicit diffusion of particles over an interface of a given shape.
@@ -357,6 +371,10 @@ impl ActiveInterface {
                     }
                     None => equidistribute(geometry, velocities, *relaxation, motions, slip),
                 }
+                let stays = self.law.bending.is_some() && self.scheme.transport.is_none();
+                if stays && self.state.shape.advance == 0.0 {
+                    stop_treading(geometry, motions, slip);
+                }
             }
             Motion::WithFluid => {
                 motions.copy_from_slice(velocities);
@@ -369,6 +387,10 @@ impl ActiveInterface {
         }
         let (positions, rates) = rate.split_at_mut(2 * count);
         points::write(motions, positions);
+        if let Some(bending) = &mut self.law.bending {
+            // The implicit part adds this again.
+            bending.stabiliser.release(markers, self.state.shape.advance, positions);
+        }
         rates.fill(0.0);
         if let Some(transport) = self.scheme.transport.as_mut() {
             let rates = &mut rates[..count];
@@ -391,12 +413,23 @@ impl ActiveInterface {
     ///
     /// # Errors
     /// Returns the errors of [`ActiveInterface::fit`].
-    fn prepare_step(&mut self, view: &FluidView, viscosity: f64, stabilised: bool) -> Result<(), InputError> {
+    fn prepare_step(&mut self, view: &FluidView, viscosity: f64, step: StepInfo) -> Result<(), InputError> {
+        let StepInfo { dt, stabilised } = step;
         if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
             self.derived.relaxation = relaxation * self.spacing_rate(viscosity);
         }
         let count = self.markers().len();
         self.fit(view)?;
+        if let Some(bending) = &mut self.law.bending {
+            let stiffness = Stiffness {
+                perimeter: self.state.shape.geometry.perimeter,
+                viscosity,
+                largest: view.interface_stiffness,
+                dt,
+                modes: view.shape_modes.unwrap_or(count),
+            };
+            bending.prepare_step((self.law.stabilised && stabilised).then_some(stiffness));
+        }
         let Scheme { transport, stabiliser, diffusivities, .. } = &mut self.scheme;
         diffusivities.resize(count, 0.0);
         diffusivities.fill(self.law.diffusion);

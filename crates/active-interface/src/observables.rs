@@ -7,6 +7,7 @@ mod ellipse_fit;
 mod fourier;
 mod frame;
 mod least_squares;
+mod membrane;
 mod moments;
 mod periodic;
 mod polar;
@@ -37,6 +38,7 @@ pub use curvature::stress_curvature;
 pub use ellipse_fit::{EllipseFit, fit_ellipse};
 pub use fourier::{FourierModes, concentration_modes, shape_modes};
 pub use frame::{Frame, centroid_velocity};
+pub use membrane::MembraneMeasures;
 pub use moments::{Convention, ForceMoments, force_moments};
 pub use periodic::PeriodicObservables;
 pub use profile::{ConcentrationProfile, concentration_profile};
@@ -57,6 +59,8 @@ pub struct InterfaceState<'a> {
     pub numbers: &'a [f64],
     /// Number of particles inside, and rate of binding less unbinding (1/time); `None` without exchange.
     pub inside: Option<(f64, f64)>,
+    /// Measures of a membrane; `None` for other interfaces.
+    pub membrane: Option<MembraneMeasures>,
     /// Viscosities inside and outside (stress times time).
     pub viscosities: [f64; 2],
     /// Bodies inside the droplet ([`BodyFlow::enclosed`]), whose forces are among its force moments.
@@ -79,6 +83,7 @@ impl<'a> InterfaceState<'a> {
             imposed: flow.imposed,
             numbers: droplet.particle_numbers(),
             inside: droplet.number_inside().zip(droplet.exchange_flux()),
+            membrane: MembraneMeasures::of(&droplet.interface),
             enclosed: flow.enclosed(),
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
             axisymmetric: droplet.is_axisymmetric(),
@@ -180,6 +185,8 @@ pub struct Observables {
     pub particle_number: f64,
     /// Number of particles inside, and rate of binding less unbinding (1/time); `None` without exchange.
     pub inside: Option<(f64, f64)>,
+    /// Reduced area and mean tension of a membrane; `None` for other droplets.
+    pub membrane: Option<MembraneMeasures>,
     /// Largest and smallest concentration (particles per length); `None` without particles.
     pub concentration_range: Option<[f64; 2]>,
     /// The ellipse with the moments of the area: deformation and inclination of the droplet, in laboratory axes. On a
@@ -248,6 +255,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         perimeter: raw_perimeter(markers),
         particle_number: 0.0,
         inside,
+        membrane: state.membrane,
         concentration_range: None,
         shape,
         aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
@@ -312,7 +320,7 @@ impl Observables {
     /// x. `stresslet_xx` and `stresslet_xy` are in axes along the motion, and with `_laboratory` along x and y. `s_ijk`
     /// and `n_ijk` are the symmetric and the mixed part of the quadrupole `f_ijk`, `b1`, `b2`, `beta` the squirmer
     /// coefficients in the droplet's frame, `shape_mode_k` and `concentration_mode_k` the amplitudes of mode k over the
-    /// mean.
+    /// mean. Membranes alone have `reduced_area` and `mean_tension`.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let stresslet = self.moments.stresslet();
@@ -373,6 +381,10 @@ impl Observables {
         let relative = |modes: &FourierModes, k: usize| (modes.mean != 0.0).then(|| modes.amplitude(k) / modes.mean);
         if let Some((number, flux)) = self.inside {
             entries.extend([("number_inside", known(number)), ("exchange_flux", known(flux))]);
+        }
+        if let Some(membrane) = self.membrane {
+            let MembraneMeasures { reduced_area, mean_tension } = membrane;
+            entries.extend([("reduced_area", known(reduced_area)), ("mean_tension", known(mean_tension))]);
         }
         entries.extend((2..).zip(SHAPE_MODES).map(|(k, name)| (name, relative(&self.shape_modes, k))));
         entries.extend((1..).zip(CONCENTRATION_MODES).map(|(k, name)| (name, relative(&self.concentration_modes, k))));

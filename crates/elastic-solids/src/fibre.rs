@@ -28,13 +28,14 @@ const LEAST_NODES: usize = 3;
 
 /// How an end of a fibre is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum FibreEnd {
-    /// Nothing holds it.
+    /// The end moves and turns freely.
     #[default]
     Free,
-    /// Its position is held.
+    /// The end stays in place, and the fibre can turn about it.
     Pinned,
-    /// Its position and its tangent are held.
+    /// The end keeps its place and its direction.
     Clamped,
 }
 
@@ -119,8 +120,10 @@ impl Fibre {
         Self::of(nodes, Some(Vec2::ZERO), stretching, bending)
     }
 
-    /// Creates a fibre that spans a periodic region without end: the node after the last one is the image of the first
-    /// node, at a distance of `period` from it (length); otherwise as [`Fibre::new`].
+    /// Creates a fibre without ends that spans a periodic region.
+    ///
+    /// The node after the last one is the image of the first node, moved by `period` (length). For all other arguments,
+    /// see [`Fibre::new`].
     ///
     /// # Errors
     /// Returns the errors of [`Fibre::new`], and an error for a period that is not finite.
@@ -243,7 +246,7 @@ impl Fibre {
         Ok(self)
     }
 
-    /// Sets the length at rest of the whole fibre (length), divided among its segments as it is now.
+    /// Sets the length at rest of the whole fibre (length). The shares of its segments stay as they are.
     ///
     /// # Errors
     /// Returns an error for a length that is not positive and finite.

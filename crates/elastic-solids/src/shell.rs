@@ -1,11 +1,20 @@
 //! Elastic membranes around fluid: shells and capsules.
 
+mod viscosity;
+
 use std::f64::consts::PI;
 
-use motile_base::{BendingMeasure, Membrane, PeriodicSeries, Vec2, internal::all_points_finite, positive, same_length};
-use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepLimit, points};
+use motile_base::{
+    BendingMeasure, Membrane, PeriodicSeries, Vec2,
+    internal::{Refuse as _, all_points_finite},
+    not_negative, positive, same_length,
+};
+use motile_scene::{
+    Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepLimit, Viscous, checkpoint::SavedState, points,
+};
 
 use crate::{SolidError, rigid_body::closed_outline};
+use viscosity::ShellViscosity;
 
 /// A closed elastic membrane that moves with the fluid, and may hold fluid of another viscosity: a shell inside a
 /// droplet, or a capsule.
@@ -36,6 +45,7 @@ pub struct Shell {
     /// Truncation of the motion where the flow resolves fewer modes than there are markers.
     modes: Option<usize>,
     motions: Vec<Vec2>,
+    viscosity: Option<Box<ShellViscosity>>,
 }
 
 impl Shell {
@@ -55,6 +65,7 @@ impl Shell {
             viscosity_inside: None,
             area,
             modes: None,
+            viscosity: None,
         })
     }
 
@@ -84,6 +95,28 @@ impl Shell {
     /// Returns an error for a viscosity that is not positive and finite.
     pub fn with_viscosity_inside(self, viscosity: f64) -> Result<Self, SolidError> {
         Ok(Self { viscosity_inside: Some(positive("the viscosity inside", viscosity)?), ..self })
+    }
+
+    /// Gives the shell a viscosity eta_s (force times time), with which it resists stretching: it carries the tension
+    /// `eta_s tau.dv/ds` in addition to its elastic one, v being the velocity of its points. Steps stay as long as they
+    /// are.
+    ///
+    /// # Errors
+    /// Returns an error for a viscosity that is negative or not finite.
+    #[doc(alias("Kelvin-Voigt", "membrane viscosity"))]
+    pub fn with_viscosity(mut self, viscosity: f64) -> Result<Self, SolidError> {
+        not_negative("the viscosity of the shell", viscosity)?;
+        self.viscosity = match viscosity {
+            0.0 => None,
+            _ => Some(Box::new(ShellViscosity::new(viscosity, self.positions.len())?)),
+        };
+        Ok(self)
+    }
+
+    /// Returns the viscosity of the shell (force times time), 0 if it has none.
+    #[must_use]
+    pub fn viscosity(&self) -> f64 {
+        self.viscosity.as_ref().map_or(0.0, |own| own.viscosity)
     }
 
     /// Moves the points of the shell (length). Its shape at rest stays the one that it was made in.
@@ -149,6 +182,15 @@ impl Body for Shell {
         self.modes = view.shape_modes.filter(|&modes| modes < self.positions.len());
         self.membrane.move_to(&self.positions, Vec2::ZERO)?;
         forces.fill(Vec2::ZERO);
+        if let Some(own) = &mut self.viscosity {
+            if view.shape_modes.is_none() {
+                let what = "a viscous shell on a grid is not resolved";
+                let why = "its points are not equally spaced, as the correction of the grid needs them";
+                return Err(SolidError::refused(what, why, "Use the method integral or layers").into());
+            }
+            let mean = self.viscosity_inside.map_or(view.viscosity, |inside| 0.5 * (inside + view.viscosity));
+            own.update(&self.positions, view, mean)?;
+        }
         Ok(self.membrane.add_forces(forces)?)
     }
 
@@ -215,7 +257,67 @@ impl Body for Shell {
             ("the mean curvature at rest", curvature),
         ];
         properties.extend(self.viscosity_inside.map(|viscosity| ("the viscosity inside", viscosity)));
+        properties.extend(self.viscosity.as_ref().map(|own| ("the viscosity of the shell", own.viscosity)));
         properties.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+
+    fn as_viscous(&mut self) -> Option<&mut dyn Viscous> {
+        if self.viscosity.is_some() { Some(self) } else { None }
+    }
+
+    fn save(&self) -> SavedState {
+        let mut reals = vec![0.0; self.state_len()];
+        self.write_state(&mut reals);
+        reals.extend_from_slice(Viscous::stresses(self));
+        SavedState { reals, counts: Vec::new() }
+    }
+
+    fn load(&mut self, _view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
+        let stresses = self.stress_count();
+        let (state, stresses) = saved.reals_of(self.state_len() + stresses)?.split_at(self.state_len());
+        self.read_state(state)?;
+        self.set_stresses(stresses);
+        Ok(())
+    }
+}
+
+impl Viscous for Shell {
+    fn stress_count(&self) -> usize {
+        self.stresses().len()
+    }
+
+    fn write_rates(&mut self, velocities: &[Vec2], rates: &mut [f64]) {
+        if let Some(own) = &mut self.viscosity {
+            own.write_rates(velocities, rates);
+        }
+    }
+
+    fn add_stress_forces(&mut self, stresses: &[f64], forces: &mut [Vec2]) {
+        if let Some(own) = &mut self.viscosity {
+            own.add_forces(stresses, forces);
+        }
+    }
+
+    fn write_compliances(&self, compliances: &mut [f64]) {
+        if let Some(own) = &self.viscosity {
+            compliances.copy_from_slice(&own.compliances);
+        }
+    }
+
+    fn precondition(&mut self, rates: &mut [f64]) {
+        if let Some(own) = &mut self.viscosity {
+            own.precondition(rates);
+        }
+    }
+
+    fn stresses(&self) -> &[f64] {
+        self.viscosity.as_ref().map_or(&[], |own| &own.stresses)
+    }
+
+    fn set_stresses(&mut self, stresses: &[f64]) {
+        if let Some(own) = &mut self.viscosity {
+            own.stresses.copy_from_slice(stresses);
+        }
     }
 }
 

@@ -267,8 +267,11 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 
     fn wall_slip(&self) -> Option<[f64; 2]> {
         let walls = self.solver.walls();
-        let alone = self.grid().has_walls() && walls.is_at_rest() && self.solver.friction() == 0.0;
-        alone.then(|| walls.slip())
+        (self.grid().has_walls() && walls.is_at_rest()).then(|| walls.slip())
+    }
+
+    fn friction(&self) -> f64 {
+        self.solver.friction()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -93,6 +93,9 @@
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
 //! docs/explanation/grid.md in the repository.
 //!
+//! With the feature `rayon`, off by default, several threads work on many markers and large grids, and results are
+//! bitwise identical.
+//!
 //! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 

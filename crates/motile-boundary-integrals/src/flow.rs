@@ -8,7 +8,7 @@ use motile_base::{
     positive,
 };
 use motile_scene::{
-    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Warning,
+    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, ObstacleLoad, Warning,
     checkpoint::SavedState, gap::Boundary,
 };
 use stokes_boundary_integrals::{InterfaceFlow, LayerError, Settings};
@@ -266,7 +266,16 @@ impl Hydrodynamics for BoundaryIntegral {
     }
 
     fn wall_slip(&self) -> Option<[f64; 2]> {
-        (self.drive().is_some() && self.walls.is_empty()).then(|| self.region().slip())
+        let straight = self.interfaces.flow.obstacle_loads().all(|load| load.is_some());
+        (self.drive().is_some() && straight).then(|| self.region().slip())
+    }
+
+    fn obstacle_loads(&self) -> Vec<Option<ObstacleLoad>> {
+        let load = |load: stokes_boundary_integrals::ObstacleLoad| {
+            let stokes_boundary_integrals::ObstacleLoad { centroid, force, torque, shear } = load;
+            ObstacleLoad { centroid, force, torque, shear }
+        };
+        self.interfaces.flow.obstacle_loads().map(|found| found.map(load)).collect()
     }
 
     fn warnings(&self) -> Vec<Warning> {

@@ -15,7 +15,7 @@ use crate::{
 use contrast::LayerContrast;
 use curves::LayerCurves;
 use ib_core::{
-    Kernel, Transfer,
+    Kernel, Role, Transfer,
     internal::{WALL_TOLERANCE, grid_domain},
 };
 use motile_base::{FlowSample, Vec2};
@@ -82,12 +82,6 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
                 "Use the immersed boundary method, or a solver without friction",
             ));
         }
-        if solver.walls().slip() != [0.0; 2] {
-            return Err(FlowError::unsupported(
-                "walls with slip with layers, whose grid part does not slip next to them",
-                "Use boundary integrals, or walls without slip",
-            ));
-        }
         let grid = *solver.grid();
         let [length, width] = grid.lengths();
         let region = if grid.has_walls() {
@@ -98,7 +92,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
                 ));
             }
             // Where the grid has a part, the flow that is driven comes from there.
-            Region::Channel { length, width, drive: solver.drive() }
+            Region::Channel { length, width, drive: solver.drive() }.with_slip(solver.walls().slip())
         } else {
             Region::Box { lengths: [length, width] }
         };
@@ -172,9 +166,26 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         self.solve()
     }
 
-    /// Refuses inner points too far beyond a wall; layers see to their own.
+    /// Refuses inner points too far beyond a wall, and points of the grid part that are too close to a wall with slip;
+    /// layers see to their own.
     fn check_walls(&self, markers: &Markers) -> Result<(), FlowError> {
         let grid = self.grid();
+        let slips = self.solver.walls().slip().map(|slip| slip > 0.0);
+        if slips != [false; 2] {
+            // Beyond the walls the kernel continues a flow without slip.
+            let kernel = self.inner.kernel();
+            let support = [Role::Normal, Role::Tangential].map(|role| kernel.support(role));
+            let reach = 0.5 * grid.spacing() * support[0].max(support[1]) as f64;
+            let [bottom, top] = [grid.origin()[1], grid.origin()[1] + grid.lengths()[1]];
+            let inner = self.curves.inner.iter().map(|marker| markers.positions()[*marker].y);
+            let mut heights = inner.chain(self.curves.grid[0].iter().map(|place| place.y));
+            if heights.any(|y| slips[0] && y - bottom < reach || slips[1] && top - y < reach) {
+                return Err(FlowError::unsupported(
+                    "a point next to a wall with slip, closer than the delta function of the grid reaches",
+                    "Use a finer grid or a wider channel, or for droplets alone boundary integrals",
+                ));
+            }
+        }
         let (bottom, allowed) = (grid.origin()[1], WALL_TOLERANCE * grid.spacing());
         let top = bottom + grid.lengths()[1];
         for &marker in self.curves.inner.iter().filter(|_| grid.has_walls()) {
@@ -306,7 +317,8 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     }
 
     fn wall_slip(&self) -> Option<[f64; 2]> {
-        (self.grid().has_walls() && self.solver.walls().is_at_rest()).then_some([0.0; 2])
+        let walls = self.solver.walls();
+        (self.grid().has_walls() && walls.is_at_rest()).then(|| walls.slip())
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

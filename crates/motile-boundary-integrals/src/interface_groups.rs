@@ -16,6 +16,17 @@ pub(crate) struct InterfaceGroups {
     samples: Vec<FlowSample>,
 }
 
+/// Sum of forces over the sum of their sizes below which it is round-off.
+const BALANCED: f64 = 1e-13;
+
+/// Returns the mean density of forces in a box of that area (force per length squared). The mean pressure gradient of
+/// the box balances it. It is zero if the forces add up to zero.
+fn force_density(forces: &[Vec2], area: f64) -> Vec2 {
+    let add = |(sum, size), force: &Vec2| (sum + *force, size + force.x.abs() + force.y.abs());
+    let (sum, size) = forces.iter().fold((Vec2::ZERO, 0.0), add);
+    if sum.length() > BALANCED * size { sum / area } else { Vec2::ZERO }
+}
+
 impl InterfaceGroups {
     /// Groups that move with a flow. Until interfaces are known, the stiffness is taken for an interface of perimeter 2
     /// pi.
@@ -98,7 +109,12 @@ impl InterfaceGroups {
         let shortest = (0..flow.len()).filter_map(|interface| flow.perimeter(interface)).reduce(f64::min);
         shortest.into_iter().for_each(|perimeter| self.set_reference_perimeter(perimeter));
         self.tell_dipoles(markers)?;
-        Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
+        let periods = self.flow.periods();
+        let mean_pressure_gradient = match periods[0].zip(periods[1]) {
+            Some((length, height)) => force_density(markers.forces(), length * height).to_array(),
+            None => [pressure_gradient, 0.0],
+        };
+        Ok(SolveReport { iterations, residual, mean_pressure_gradient })
     }
 
     /// Reports to the markers what keeps bodies rigid in the last solution ([`Markers::rigid_dipole`]).

@@ -6,7 +6,8 @@ use std::time::Instant;
 use anyhow::Result;
 use motile::base::internal::told;
 use motile::scene::{Every, SceneError, StepSize, System, Warnings};
-use motile::setup::{AnyFlow, DropletShape, MeshGroup, Numbers, Setup, SolidOutline};
+use motile::setup::{AnyFlow, Built, DropletSetup, DropletShape, MeshGroup, Numbers, Setup, SolidOutline};
+use motile::space_droplets::SpaceDroplet;
 use motile_cli::keys::written_out;
 use motile_cli::run::{Decided, Summary, say};
 use toml::Value;
@@ -23,29 +24,37 @@ const MOST_BODIES: usize = 20;
 /// # Errors
 /// Returns an error for a scene that cannot be built, or whose first steps fail.
 pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
-    let mut scene = setup.build()?.scene;
+    let Built { mut scene, space, .. } = setup.build()?;
     let placed = setup.placed()?;
     let mut report = Summary::default();
     let entries = written_out(setup)?;
     for key in ["region", "method", "step"] {
         report.put(key, entries.get(key).map_or(String::new(), Value::to_string), "");
     }
-    let markers: usize = scene.system().all_bodies().map(|(_, body)| body.marker_count()).sum();
-    report.put("markers", markers, &format!("of all {} bodies", scene.system().all_bodies().len()));
+    if let Some(body) = space {
+        let droplets = scene.body(body)?.droplets().droplets();
+        let degree = droplets.first().map(SpaceDroplet::degree);
+        report.put("degree", degree, &format!("of the spherical harmonics of all {} droplets", droplets.len()));
+        for (number, droplet) in placed.droplets.iter().enumerate().take(MOST_BODIES) {
+            let about = format!("radius {:.4}{}", droplet.shape.radius()?, numbers_of(&placed, droplet)?);
+            report.put(&format!("droplet {number}"), droplet.name.as_str(), &about);
+        }
+    } else {
+        let markers: usize = scene.system().all_bodies().map(|(_, body)| body.marker_count()).sum();
+        report.put("markers", markers, &format!("of all {} bodies", scene.system().all_bodies().len()));
+    }
     // In the order in which bodies are added.
     let shapes = placed.droplets.iter().map(|body| Some(&body.shape)).chain(placed.solids.iter().map(|_| None));
     let shapes = shapes.chain(placed.rigid_bodies.iter().map(|body| Some(&body.shape)));
     let shapes: Vec<Option<&DropletShape>> = shapes.chain(placed.shells.iter().map(|body| Some(&body.shape))).collect();
-    for (handle, body) in scene.system().all_bodies().take(MOST_BODIES) {
+    let listed = if space.is_some() { 0 } else { MOST_BODIES };
+    for (handle, body) in scene.system().all_bodies().take(listed) {
         let mut about = format!("{} markers", body.marker_count());
         if let Some(Some(shape)) = shapes.get(handle.index()) {
             about += &format!(", radius {:.4}", shape.radius()?);
         }
-        let numbers = placed.droplets.get(handle.index()).map(|droplet| placed.numbers(droplet)).transpose()?;
-        if let Some(Numbers { peclet, bare_tension, viscosity_ratio, excluded_volume }) = numbers.flatten() {
-            let volume = excluded_volume.map_or(String::new(), |ratio| format!(", A/|ζΔμ| {ratio:.4}"));
-            about += &format!(", Péclet number {peclet:.4}{volume}, γ0/(|ζΔμ| c0) {bare_tension:.4}");
-            about += &format!(", ηin/ηext {viscosity_ratio:.4}");
+        if let Some(droplet) = placed.droplets.get(handle.index()) {
+            about += &numbers_of(&placed, droplet)?;
         }
         report.put(&format!("body {}", handle.index()), body.name(), &about);
     }
@@ -79,7 +88,13 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
             report.put(&format!("solids[{number}].outline.mesh.triangles"), mesh.triangles.len(), &about);
         }
     }
-    report.put("minimum_gap", scene.system().minimum_gap(), "between bodies and to walls (length)");
+    let mut gap = scene.system().minimum_gap();
+    if let Some(body) = space {
+        let droplets = scene.body(body)?.droplets();
+        let gaps = (0..droplets.droplets().len()).map(|number| droplets.smallest_gap(number));
+        gap = gaps.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().reduce(f64::min);
+    }
+    report.put("minimum_gap", gap, "between bodies and to walls (length)");
     if let Some(error) = setup.expected_error() {
         report.put(
             "expected_error",
@@ -120,4 +135,14 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
         say(format_args!("warning: {warning}"));
     }
     Ok(())
+}
+
+/// Returns the dimensionless numbers of a droplet as text after a comma; empty without activity.
+fn numbers_of(placed: &Setup, droplet: &DropletSetup) -> Result<String> {
+    let Some(Numbers { peclet, bare_tension, viscosity_ratio, excluded_volume }) = placed.numbers(droplet)? else {
+        return Ok(String::new());
+    };
+    let volume = excluded_volume.map_or(String::new(), |ratio| format!(", A/|ζΔμ| {ratio:.4}"));
+    let first = format!(", Péclet number {peclet:.4}{volume}, γ0/(|ζΔμ| c0) {bare_tension:.4}");
+    Ok(format!("{first}, ηin/ηext {viscosity_ratio:.4}"))
 }

@@ -121,14 +121,14 @@ pub fn table_of(text: &str) -> Result<Value> {
     }
 }
 
-/// Returns the table of a scene as [`table_of`], with the contents of files, whose paths are relative to a directory,
-/// in the place of the files.
+/// Returns the table of a scene as [`table_of`], with the paths of files as seen from the directory of the program,
+/// where they were relative to `directory`.
 ///
 /// # Errors
-/// Returns the errors of [`table_of`], and an error for a file that cannot be used.
+/// Returns the errors of [`table_of`].
 pub fn table_in(text: &str, directory: &Path) -> Result<Value> {
     match Setup::read(text) {
-        Ok(setup) => written_out(&setup.with_files(directory)?),
+        Ok(setup) => written_out(&setup.with_paths_from(directory)),
         Err(_) => table_of(text),
     }
 }

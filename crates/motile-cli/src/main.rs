@@ -9,7 +9,7 @@ use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
 use motile_cli::command_line::positive;
 use motile_cli::keys::SceneFlags;
-use motile_cli::run::{OutputFlags, SceneRun, View, say};
+use motile_cli::run::{OutputFlags, SceneRun, SpaceRun, View, say};
 use motile_cli::steady::{SteadyFlags, steady};
 use motile_cli::sweep::{SweepFlags, sweep};
 
@@ -77,7 +77,14 @@ fn run(RunFlags { scene, time, output }: &RunFlags) -> Result<()> {
     if !output.quiet {
         setup.hints().iter().for_each(|hint| say(format_args!("note: {hint}")));
     }
-    let mut run = SceneRun::new(setup.build()?, &setup, *time, output, &name, &View::of(&setup))?;
+    let built = setup.build()?;
+    if let Some(body) = built.space {
+        let mut run = SpaceRun::new(built.scene, body, &setup, *time, output, &name)?;
+        run.go()?;
+        let summary = run.summary()?;
+        return run.finish(&summary);
+    }
+    let mut run = SceneRun::new(built, &setup, *time, output, &name, &View::of(&setup))?;
     run.go(None)?;
     // The results, also of a run that broke off.
     let summary = run.summary()?;

@@ -34,12 +34,13 @@ macro_rules! examples {
 }
 
 /// Examples, which the repository has in `examples/scenes`.
-const EXAMPLES: [(&str, &str); 16] = examples![
+const EXAMPLES: [(&str, &str); 17] = examples![
     "active_walls",
     "circles",
     "constriction",
     "drop",
     "elastic_walls",
+    "encounter",
     "exchange",
     "gel",
     "living_walls",

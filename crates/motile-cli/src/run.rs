@@ -3,6 +3,7 @@
 //! | for | there are |
 //! |---|---|
 //! | any scene, with tables of all its bodies | [`SceneRun`] |
+//! | droplets in three dimensions without symmetry | [`SpaceRun`] |
 //! | any scene, with observers of your own | [`Job`] |
 //! | results | [`Summary`] (`summary.json` and a table), [`write_results`] of many |
 //! | settings, as flags of a command line | [`OutputFlags`], [`CheckpointFlags`] |
@@ -14,6 +15,7 @@ mod flags;
 mod job;
 mod places;
 mod scene_run;
+mod space_run;
 mod steady;
 mod summary;
 mod words;
@@ -21,6 +23,7 @@ mod words;
 pub use flags::{CheckpointFlags, LookFlags, OutputFlags};
 pub use job::{Decided, Job, Taken, Watch};
 pub use scene_run::{SceneRun, View};
+pub use space_run::SpaceRun;
 pub use steady::Steadiness;
 pub(crate) use summary::{ORIGIN_KEY, VERSION_KEY};
 pub use summary::{Summary, make_directory, write_results};

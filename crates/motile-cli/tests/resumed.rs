@@ -148,3 +148,10 @@ fn two_that_meet() {
     compare(&file, "13.5", &[FEW, "repulsion={ strength = 10, range = 0.1 }"], false);
     fs::remove_file(&file).expect("a file that can be removed");
 }
+
+/// Droplets in three dimensions, whose velocities are iterated for two viscosities.
+#[test]
+fn droplets_without_symmetry() {
+    let keys = ["method.harmonics.degree=4", "droplets.0.viscosity=50", "step.adaptive.tolerance=0.000001"];
+    compare(&scene("encounter"), "6", &keys, false);
+}

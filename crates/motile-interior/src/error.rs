@@ -45,6 +45,13 @@ impl InteriorError {
         Self::refused(what, "this droplet has none", "Build it with a list of particle numbers")
     }
 
+    /// Returns the error for noise on particles that are exchanged with the inside.
+    pub(crate) fn noisy() -> Self {
+        let what = "particles that diffuse inside have no noise yet";
+        let remedy = "Leave the noise out, or use a well-mixed inside (ActiveDroplet::with_well_mixed_interior)";
+        Self::refused(what, "the droplet has noise on its particles", remedy)
+    }
+
     /// Returns the error for an interface that does not enclose a layer next to a wall.
     pub(crate) fn not_below_wall() -> Self {
         let what = "a gel in a layer needs an interface along x that does not reach the wall on its inside";

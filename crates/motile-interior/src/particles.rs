@@ -84,6 +84,8 @@ pub struct ParticlesInDroplet {
     lengths: Vec<f64>,
     on: Vec<f64>,
     bound: Vec<f64>,
+    /// True if the droplet has got noise on its particles since.
+    noisy: bool,
 }
 
 impl ParticlesInDroplet {
@@ -96,7 +98,8 @@ impl ParticlesInDroplet {
     /// * densities that are negative or not finite,
     /// * a diffusion constant or spacing that is not positive,
     /// * a mesh of too many nodes,
-    /// * a droplet without particles, with a number of markers that changes, or so bent that the mesh folds.
+    /// * a droplet without particles, with noise on them, with a number of markers that changes, or so bent that the
+    ///   mesh folds.
     pub fn new(
         droplet: &ActiveDroplet,
         host: Handle<ActiveDroplet>,
@@ -109,6 +112,9 @@ impl ParticlesInDroplet {
         let filling = Filling::new(droplet, host, spacing, GROWTH)?;
         if droplet.particle_numbers().is_empty() {
             return Err(InteriorError::no_particles());
+        }
+        if droplet.noise().is_some() {
+            return Err(InteriorError::noisy());
         }
         let nodes = &filling.nodes;
         let cells = Cells::new(filling.mesh.triangles().to_vec(), nodes);
@@ -140,6 +146,7 @@ impl ParticlesInDroplet {
             lengths: droplet.element_lengths().to_vec(),
             bound: vec![0.0; on.len()],
             on,
+            noisy: false,
             cells,
             filling,
         })
@@ -216,6 +223,7 @@ impl InteriorBody for ParticlesInDroplet {
             self.cells.move_to(&self.filling.nodes);
             self.on.copy_from_slice(droplet.particle_numbers());
             self.lengths.copy_from_slice(droplet.element_lengths());
+            self.noisy = droplet.noise().is_some();
         }
     }
 
@@ -232,6 +240,9 @@ impl Body for ParticlesInDroplet {
 
     fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.filling.check()?;
+        if self.noisy {
+            return Err(InteriorError::noisy().into());
+        }
         if let Some(place) = self.cells.folded {
             return Err(InteriorError::Folded { x: place.x, y: place.y }.into());
         }

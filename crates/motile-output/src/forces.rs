@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
+use motile::base::Vec2;
 use motile::elastic_solids::RigidBody;
 use motile::scene::{ChannelForces, Hydrodynamics, Observer, System};
 
@@ -13,7 +14,9 @@ use crate::{CsvTable, OutputError};
 /// The columns are `time` and the force of the fluid on all bodies together, `force_bodies_x` and `force_bodies_y`
 /// (force). Between straight walls ([`motile::scene::ChannelForces`]), there are the `pressure_drop` of a period
 /// (stress) and the forces along x on the walls, `force_lower` and `force_upper`. If a flux drives the channel,
-/// `extra_pressure_drop` is the part of the pressure drop that the bodies cause. The forces on each held body are in [`crate::BodiesCsv`].
+/// `extra_pressure_drop` is the part of the pressure drop that the bodies cause. Closed rigid walls add the force on
+/// all of them, `force_obstacles_x` and `force_obstacles_y`, and the torque on one alone, `torque_obstacle`. Friction
+/// of the fluid adds the force on the plates, `force_plates`. The forces on each held body are in [`crate::BodiesCsv`].
 ///
 /// ```
 /// use motile::prelude::*;
@@ -73,10 +76,19 @@ impl<H: Hydrodynamics> Observer<H> for ForcesCsv {
 fn row<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<(&'static str, f64)>, OutputError> {
     let force = system.force_on_bodies()?;
     let mut row = vec![("time", system.time()), ("force_bodies_x", force.x), ("force_bodies_y", force.y)];
-    if let Some(ChannelForces { pressure_drop, extra_pressure_drop, on_walls, .. }) = system.channel_forces()? {
+    let (obstacles, rubs) = (system.obstacle_loads()?, system.hydrodynamics().friction() > 0.0);
+    if let Some(forces) = system.channel_forces()? {
+        let ChannelForces { pressure_drop, extra_pressure_drop, on_walls, on_plates, .. } = forces;
         row.push(("pressure_drop", pressure_drop));
         row.extend(extra_pressure_drop.map(|drop| ("extra_pressure_drop", drop)));
         row.extend([("force_lower", on_walls[0]), ("force_upper", on_walls[1])]);
+        row.extend(rubs.then_some(("force_plates", on_plates)));
+    }
+    // Walls that are not closed have no forces of their own.
+    if !obstacles.is_empty() && obstacles.iter().all(Option::is_some) {
+        let all: Vec2 = obstacles.iter().flatten().map(|load| load.force).sum();
+        let torque = if let [Some(load)] = obstacles[..] { load.torque } else { f64::NAN };
+        row.extend([("force_obstacles_x", all.x), ("force_obstacles_y", all.y), ("torque_obstacle", torque)]);
     }
     Ok(row)
 }

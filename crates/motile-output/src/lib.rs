@@ -29,6 +29,7 @@
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
 //! | tables | [`CsvTable`], [`DropletMeter`], [`SolidMeter`], [`ForcesCsv`], [`WallShearCsv`] |
 //! | many droplets | the module [`suspension`] |
+//! | droplets in three dimensions without symmetry | [`SpaceCsv`], [`SpaceParaView`], [`SpaceSnapshot`], [`SpaceAnimation`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | long work | [`Progress`] bar |
 //!
@@ -50,6 +51,7 @@ mod progress;
 mod raster;
 mod snapshot;
 mod solids;
+mod space;
 mod streamlines;
 pub mod suspension;
 mod table;
@@ -71,6 +73,7 @@ pub use progress::{Progress, RunProgress};
 pub use raster::{Raster, Samples};
 pub use snapshot::{DropletOutline, GelField, InteriorField, Snapshot};
 pub use solids::SolidMeter;
+pub use space::{files::SpaceParaView, picture::SpaceAnimation, snapshot::SpaceSnapshot, table::SpaceCsv};
 pub use streamlines::streamlines;
 pub use table::CsvTable;
 pub use trajectory::{TrajectoryCsv, meter::DropletMeter};

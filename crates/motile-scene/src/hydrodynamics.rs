@@ -42,6 +42,20 @@ impl From<Region> for Domain {
     }
 }
 
+/// What the fluid does to an obstacle at rest, a closed rigid wall, per unit of depth.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[doc(alias("drag", "lift", "torque"))]
+pub struct ObstacleLoad {
+    /// Centroid of its area (length).
+    pub centroid: Vec2,
+    /// Force of the fluid on it (force).
+    pub force: Vec2,
+    /// Torque of the fluid on it about its centroid (force times length), counter-clockwise.
+    pub torque: f64,
+    /// First moment about the height of its centroid of the forces along x on it (force times length).
+    pub shear: f64,
+}
+
 /// The fluid as a body sees it: its region, the viscosity around the body, and its resolution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FluidView {
@@ -158,9 +172,22 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// Returns the slip lengths of the lower and the upper straight wall (length), zero without slip, if the forces on
     /// these walls follow from the forces on the fluid ([`crate::ChannelForces`]). For this, the walls have to be
-    /// straight and at rest apart from an imposed flow, and nothing else may hold the fluid. By default `None`.
+    /// straight and at rest apart from an imposed flow. Nothing else may hold the fluid than obstacles and friction,
+    /// which are stated. By default `None`.
     fn wall_slip(&self) -> Option<[f64; 2]> {
         None
+    }
+
+    /// Returns what the fluid does to each rigid wall besides the straight walls of the domain, in the last evaluation.
+    /// It is `None` for a wall that is not closed, behind which there is fluid too. By default there are no such walls.
+    fn obstacle_loads(&self) -> Vec<Option<ObstacleLoad>> {
+        Vec::new()
+    }
+
+    /// Returns the friction alpha of the fluid with plates below and above it (stress times time per length squared),
+    /// zero by default.
+    fn friction(&self) -> f64 {
+        0.0
     }
 
     /// Returns true if bodies are of revolution about the x axis, whose markers lie on the meridian and its mirror
@@ -217,6 +244,8 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
         fn walls() -> Option<&Boundary>;
         fn wall_spacings() -> &[f64];
         fn wall_slip() -> Option<[f64; 2]>;
+        fn obstacle_loads() -> Vec<Option<ObstacleLoad>>;
+        fn friction() -> f64;
         fn axisymmetric() -> bool;
         fn work() -> FlowWork;
         fn warnings() -> Vec<Warning>;

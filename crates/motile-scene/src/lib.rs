@@ -26,6 +26,9 @@
 //! assert!((place.x - (-1.5_f64).exp()).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! With the feature `rayon`, off by default, several threads work on scenes with many markers, and results are bitwise
+//! identical.
 
 mod body;
 pub mod checkpoint;
@@ -51,8 +54,8 @@ pub use body::{
 pub use error::{BodyError, FlowError, SceneError};
 pub use gap::Repulsion;
 pub use hydrodynamics::{
-    BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, PrescribedFlow,
-    Substrate,
+    BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, ObstacleLoad,
+    PrescribedFlow, Substrate,
 };
 pub use observables::{ChannelForces, Deformation, MomentEllipse, Stress};
 pub use scene::{Every, Handle, Imposed, Observer, Run, Scene, StepSize, System, Warnings};

@@ -165,6 +165,12 @@ impl Model {
     fn with_flow(setup: &Setup, flow: Option<Flow>) -> Result<Self, SteadyError> {
         let refuse = |what: &str, remedy| Err(SteadyError::unsupported(what, remedy));
         setup.check()?;
+        if setup.lacks_symmetry() {
+            return refuse(
+                "the scene is described without symmetry about the x axis",
+                "A swimmer alone is axisymmetric, so leave out position, heading, flow and the method harmonics",
+            );
+        }
         let Method::Integral(method) = setup.method else {
             return refuse("the scene is computed on a grid", "Use the method of boundary integrals (`integral`)");
         };
@@ -187,6 +193,7 @@ impl Model {
                 fields,
                 cortex,
                 friction,
+                wall_friction,
                 body_force,
                 force,
                 ..
@@ -200,6 +207,9 @@ impl Model {
                 "the droplet feels fields that are fixed in the laboratory, in which a droplet that moves is not steady",
                 "Leave the fields out, or run the scene",
             );
+        }
+        if *wall_friction != 0.0 {
+            return refuse("walls rub on the interface", "Leave wall-friction out, or run the scene");
         }
         if cortex.inextensible {
             return refuse("the interface does not stretch", "Run it until its deformation no longer changes");
@@ -215,9 +225,6 @@ impl Model {
         }
         if !(setup.solids.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some() {
             return refuse("the scene has solids, shaped walls or a repulsion", "Leave them out");
-        }
-        if setup.region.slip() != [0.0; 2] {
-            return refuse("fluid slips along the walls of the channel", "Run the scene, or set the slip lengths to 0");
         }
         if setup.region.half_length().is_some() {
             return refuse("nothing is steady in a tube that is not straight", "Use a straight tube");
@@ -420,7 +427,8 @@ impl Model {
     /// Returns true if the imposed flow is its own mirror image at the x axis.
     pub(crate) fn is_mirror_symmetric(&self) -> bool {
         let ImposedFlow { velocity: [_, v], gradient: [[_, uy], [vx, _]], .. } = self.imposed();
-        v == 0.0 && uy == 0.0 && vx == 0.0
+        let [below, above] = self.setup.region.slip();
+        v == 0.0 && uy == 0.0 && vx == 0.0 && below == above
     }
 
     pub(crate) fn in_plane(&self) -> bool {
@@ -428,7 +436,7 @@ impl Model {
     }
 
     pub(crate) fn in_channel(&self) -> bool {
-        matches!(self.setup.region, Region::Channel { .. })
+        matches!(self.setup.region.without_slip(), Region::Channel { .. })
     }
 
     /// Returns true for bodies of revolution in three dimensions.

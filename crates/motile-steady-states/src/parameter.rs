@@ -166,11 +166,11 @@ impl Parameter {
             Self::Cortex => Some(droplet.cortex.viscosity).filter(|viscosity| *viscosity > 0.0),
             Self::CortexShear => Some(droplet.cortex.shear_viscosity).filter(|viscosity| *viscosity > 0.0),
             Self::Friction => Some(droplet.friction).filter(|friction| *friction > 0.0),
-            Self::Width => match setup.region {
+            Self::Width => match setup.region.without_slip() {
                 Region::Channel { width, .. } => Some(width),
                 _ => None,
             },
-            Self::Length => match setup.region {
+            Self::Length => match setup.region.without_slip() {
                 Region::Channel { length, .. } => Some(length),
                 Region::Box { lengths: [x, y] } if x == y => Some(x),
                 _ => None,
@@ -231,12 +231,12 @@ impl Parameter {
             Self::CortexShear => droplet.cortex.shear_viscosity = value,
             Self::Friction => droplet.friction = value,
             Self::Width => {
-                if let Region::Channel { width, .. } = &mut setup.region {
+                if let Region::Channel { width, .. } | Region::SlipChannel { width, .. } = &mut setup.region {
                     *width = value;
                 }
             }
             Self::Length => match &mut setup.region {
-                Region::Channel { length, .. } => *length = value,
+                Region::Channel { length, .. } | Region::SlipChannel { length, .. } => *length = value,
                 Region::Box { lengths } => *lengths = [value; 2],
                 _ => return Err(missing()),
             },

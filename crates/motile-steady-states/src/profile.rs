@@ -231,7 +231,7 @@ impl Profile {
     pub(crate) fn check_room(&self, setup: &Setup) -> Result<(), SteadyError> {
         let extent = |way: Vec2| self.positions.iter().map(|x| x.dot(way)).fold(f64::NEG_INFINITY, f64::max);
         let [left, right, top, bottom] = [-Vec2::X, Vec2::X, Vec2::Y, -Vec2::Y].map(extent);
-        let fits = match setup.region {
+        let fits = match setup.region.without_slip() {
             Region::Tube { radius, .. } => top.max(bottom) < radius,
             Region::Channel { length, width, .. } => left + right < length && top.max(bottom) < 0.5 * width,
             region => left + right < region.lengths()[0] && top + bottom < region.lengths()[1],

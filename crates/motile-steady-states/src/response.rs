@@ -13,6 +13,8 @@ use crate::{Parameter, SteadyError, SteadyState};
 const AMPLITUDE: f64 = 1e-3;
 /// Largest step of a parameter over its size.
 const LARGEST: f64 = 0.01;
+/// Farthest value of a parameter that differences use, over its size.
+const REACH: f64 = 3.0 * LARGEST;
 /// Most corrections of a response, and their relative size below which the next one is round-off.
 const MOST_CORRECTIONS: usize = 6;
 const SMALL: f64 = 1e-6;
@@ -110,8 +112,8 @@ impl Linearised {
         self.equations.part()
     }
 
-    /// Returns the slowest rate of the state's own disturbances (1/time), by inverse iteration: the equations are
-    /// singular where it vanishes. It is the smallest absolute value if that belongs to a pair.
+    /// Returns the slowest rate of disturbances with the symmetry of the state (1/time), by inverse iteration. At zero,
+    /// the equations are singular. If the rate belongs to a complex pair, its absolute value is returned.
     pub(crate) fn slowest(&self) -> f64 {
         let rates = self.system.modes.part(self.part()).len();
         let mut vector = DVector::from_fn(self.factors.l().nrows(), |k, _| if k < rates { 1.0 } else { 0.0 });
@@ -129,9 +131,12 @@ impl Linearised {
     /// Returns the response to a parameter.
     pub(crate) fn response(&mut self, parameter: Parameter) -> Result<Response, SteadyError> {
         let setup = self.system.model.setup.clone();
-        let (value, scale) = (parameter.get(&setup).unwrap_or(f64::NAN), parameter.scale(&setup));
+        let (value, natural) = (parameter.get(&setup).unwrap_or(f64::NAN), parameter.scale(&setup));
         let allowed = |by: f64| parameter.with(&setup, value + by).is_ok_and(|setup| setup.check().is_ok());
-        let below = value != 0.0 || allowed(-LARGEST * scale);
+        // A value far below its natural size allows no step of that size to the other side of zero.
+        let below = allowed(-REACH * natural);
+        let scale = if below || value == 0.0 || allowed(REACH * natural) { natural } else { value.abs() };
+        let below = below || scale < natural;
         let stencil = if below { Stencil::CENTRAL } else { Stencil::FORWARD };
         let mut tangent = Tangent { state: DVector::zeros(self.point.state.len()), frame: [0.0; 3] };
         let mut step = if below { 0.1 } else { 0.03 } * LARGEST * scale;

@@ -129,7 +129,7 @@ impl SteadyState {
         }
         check_axis(setup, Part::Full)?;
         // No state moves steadily across a channel.
-        let across = if matches!(setup.region, Region::Channel { .. }) { 0.0 } else { velocity.y };
+        let across = if matches!(setup.region.without_slip(), Region::Channel { .. }) { 0.0 } else { velocity.y };
         Self::from_profile(setup, profile, [velocity.x, across, 0.0], Part::Full)
     }
 
@@ -330,6 +330,7 @@ impl SteadyState {
             numbers: &[],
             viscosities: model.viscosities,
             inside: None,
+            membrane: None,
             axisymmetric: model.is_axisymmetric(),
             on_grid: false,
             enclosed: Vec::new(),
@@ -487,6 +488,7 @@ impl SteadyState {
                 numbers: if model.carries() { &numbers } else { &[] },
                 viscosities: model.viscosities,
                 inside: model.inside(),
+                membrane: None,
                 axisymmetric,
                 on_grid: false,
                 enclosed: model

@@ -37,6 +37,7 @@
 //! | [`elastic_solids`] | `elastic-solids` | elastic solids, their materials and meshes; shells and rigid bodies |
 //! | [`boundary_integrals`] | `motile-boundary-integrals` | flows of scenes by boundary integrals |
 //! | [`interior`] | `motile-interior` | bodies inside droplets: an active polar gel, diffusing particles |
+//! | [`space_droplets`] | `space-droplets` | droplets in three dimensions without symmetry |
 //! | [`scene`] | `motile-scene` | bodies and scenes, the trait of flows, gaps, integrators, runs, checkpoints |
 //! | [`analysis`] | `motile-analysis` | trajectories and regimes of a droplet, order and correlations of many |
 //! | [`outline_files`] | `outline-files` | outlines of shapes from files |
@@ -66,5 +67,5 @@ pub use setup_error::SetupError;
 pub use {
     active_interface, elastic_solids, ib_core, motile_analysis as analysis, motile_base as base,
     motile_boundary_integrals as boundary_integrals, motile_interior as interior, motile_scene as scene, outline_files,
-    stokes_grid,
+    space_droplets, stokes_grid,
 };

@@ -4,7 +4,7 @@
 pub use crate::SetupError;
 pub use crate::setup::{
     AnyFlow, Built, DropletSetup, FieldEntry, FieldsSetup, FlowSetup, GradientSetup, GridMethod, GridSolver,
-    IntegralMethod, LayersMethod, Method, NoiseSetup, Particles, Setup,
+    HarmonicsMethod, IntegralMethod, LayersMethod, Method, NoiseSetup, Particles, Setup,
 };
 pub use motile_base::{Drive, Region, Vec2};
 pub use motile_scene::{Every, Handle, Observer, Scene, SceneError, StepSize, System};

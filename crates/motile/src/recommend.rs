@@ -45,6 +45,7 @@ fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
         // Without solids they are the same.
         MethodKind::Layers => integrals.iter().map(layer).collect(),
         MethodKind::Grid => grids.iter().map(grid).collect(),
+        MethodKind::Harmonics => Vec::new(),
     }
 }
 
@@ -204,6 +205,7 @@ fn cost(method: &Method) -> f64 {
         Method::Grid(GridMethod { spacing, .. }) => {
             OF_SPACING.iter().find(|(known, _)| known <= spacing).map_or(f64::INFINITY, |(_, cost)| *cost)
         }
+        Method::Harmonics(_) => f64::INFINITY,
     }
 }
 

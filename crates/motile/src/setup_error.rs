@@ -40,6 +40,9 @@ pub enum SetupError {
     /// Error of a gel or of particles that fill a droplet.
     #[error(transparent)]
     Interior(#[from] InteriorError),
+    /// Error of a droplet in three dimensions without symmetry.
+    #[error(transparent)]
+    Space(#[from] space_droplets::SpaceError),
     /// Value out of its range, or one that does not fit the rest of the description.
     #[error("{key} = {value}: {remedy}")]
     Value {

@@ -31,7 +31,7 @@ pub enum OutlineError {
         /// The remedy.
         remedy: &'static str,
     },
-    /// A file of several outlines, none of which was chosen.
+    /// A file with several outlines, none of which was chosen.
     #[error(
         "the file has {count} outlines{}. Choose one by `name`, or by `index`, counted from 0",
         if names.is_empty() { String::new() } else { format!(" ({names})") }
@@ -88,7 +88,7 @@ pub enum OutlineError {
         /// The remedy.
         remedy: &'static str,
     },
-    /// A distance of smoothing that no smooth curve keeps.
+    /// A distance of smoothing that is too small for any smooth curve.
     #[error(
         "a smooth curve cannot stay within {wanted} of this outline. Use at least {least} for `smooth`, or leave it out"
     )]
@@ -98,7 +98,7 @@ pub enum OutlineError {
         /// Distance that a curve keeps.
         least: String,
     },
-    /// A line that is to be closed, or a closed outline that is to be a line.
+    /// A line in place of a closed outline, or a closed outline in place of a line.
     #[error("{what}. {remedy}")]
     Kind {
         /// The problem.

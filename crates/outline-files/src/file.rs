@@ -5,7 +5,7 @@ use std::path::Path;
 
 use motile_base::Vec2;
 
-use crate::{OutlineError, csv, geojson, imagej, svg};
+use crate::{OutlineError, csv, encoding, geojson, imagej, svg};
 
 /// Most bytes of a file: a device delivers bytes without end.
 const MOST_BYTES: u64 = 1 << 28;
@@ -19,11 +19,12 @@ const LISTED: usize = 8;
 #[non_exhaustive]
 pub enum FileFormat {
     /// Table of points: columns by commas, semicolons, tabs or spaces, with a header or without. Blank lines separate
-    /// outlines. A first line with the number of points, as in `.vertex` files of IBAMR, is understood.
+    /// outlines, and so do the values of a column such as `cell`, `contour` or `frame`. A first line with the number of
+    /// points, as in `.vertex` files of IBAMR, is understood.
     Csv,
     /// Vector graphics: paths, polygons, rectangles, circles and ellipses.
     Svg,
-    /// Polygons and lines with their properties.
+    /// Polygons and lines with their properties, or a list of points `[[x, y], ...]`.
     GeoJson,
     /// Region of interest of ImageJ and Fiji (`.roi`).
     ImageJ,
@@ -51,13 +52,14 @@ pub struct OutlineFile {
 
 /// Choice of one of the outlines of a file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Choice {
-    /// The only one; a file of several is refused.
+    /// The only outline. A file with several outlines is refused.
     #[default]
     Only,
-    /// The one of this number, from 0.
+    /// The outline with this number, counted from 0.
     Index(usize),
-    /// The one of this name.
+    /// The outline with this name.
     Name(String),
 }
 
@@ -77,22 +79,18 @@ impl OutlineFile {
     /// Returns [`OutlineError::Format`] for contents in no format that is known, with the place and the remedy.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, OutlineError> {
         let remedy = "Use CSV, SVG, GeoJSON or an ImageJ region of interest (.roi)";
-        let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(byte));
-        let Some(start) = start else { return Err(OutlineError::format("the file", "it is empty", remedy)) };
+        let blank = |byte: &u8| byte.is_ascii_whitespace() || b"\xef\xbb\xbf".contains(byte);
+        if bytes.iter().all(blank) {
+            return Err(OutlineError::format("the file", "it is empty", remedy));
+        }
         let (format, contours) = if bytes.starts_with(b"Iout") {
             (FileFormat::ImageJ, vec![imagej::read(bytes)?])
-        } else if bytes.starts_with(b"PK") {
-            let remedy = "Unpack it and use one of the .roi files in it";
-            return Err(OutlineError::format("the file", "it is a ZIP archive", remedy));
         } else {
-            let remedy = "If this is a picture, trace the shape first and save the outline as CSV, SVG or GeoJSON. \
-                          Otherwise save the file as UTF-8 text";
-            let text = std::str::from_utf8(&bytes[start..]).ok().filter(|text| !text.contains('\0'));
-            let text = text.ok_or_else(|| OutlineError::format("the file", "it is not text", remedy))?;
-            match bytes[start] {
-                b'<' => (FileFormat::Svg, svg::read(text)?),
-                b'{' | b'[' => (FileFormat::GeoJson, geojson::read(text)?),
-                _ => (FileFormat::Csv, csv::read(text)?),
+            let text = encoding::text_of(bytes)?;
+            match text.bytes().next() {
+                Some(b'<') => (FileFormat::Svg, svg::read(&text)?),
+                Some(b'{' | b'[') => (FileFormat::GeoJson, geojson::read(&text)?),
+                _ => (FileFormat::Csv, csv::read(&text)?),
             }
         };
         if contours.is_empty() {

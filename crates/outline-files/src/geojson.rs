@@ -1,4 +1,4 @@
-//! Polygons and lines in GeoJSON (RFC 7946).
+//! Polygons and lines in GeoJSON (RFC 7946), and lists of points.
 
 use motile_base::Vec2;
 use serde_json::Value;
@@ -6,12 +6,19 @@ use serde_json::Value;
 use crate::error::quoted;
 use crate::{Contour, OutlineError};
 
-const REMEDY: &str = "Use GeoJSON with geometries of the type Polygon, MultiPolygon or LineString";
+const REMEDY: &str = "Use GeoJSON with geometries of the type Polygon, MultiPolygon or LineString, or a list of points \
+                      [[x, y], ...]";
+/// Most bytes of a text, which takes several times as many in memory.
+const MOST_BYTES: usize = 1 << 26;
 /// Deepest collection within a collection.
 const DEEPEST: usize = 16;
 
 /// Returns the outlines of a text.
 pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
+    if text.len() > MOST_BYTES {
+        let problem = format!("it has {:.1e} bytes, more than {:.1e}", text.len() as f64, MOST_BYTES as f64);
+        return Err(OutlineError::format("the file", problem, "Use fewer points, or CSV"));
+    }
     let value: Value = serde_json::from_str(text).map_err(|error| {
         OutlineError::format(format!("line {}", error.line()), error.to_string(), "Save the file as GeoJSON")
     })?;
@@ -27,6 +34,11 @@ fn add(value: &Value, name: Option<&str>, depth: usize, to: &mut Vec<Contour>) -
     }
     // Some programs write a list of features without a collection around them.
     if let Value::Array(list) = value {
+        let is_point = |entry: &Value| entry.as_array().is_some_and(|pair| pair.iter().all(Value::is_number));
+        if !list.is_empty() && list.iter().all(is_point) {
+            to.push(Contour { name: name.map(str::to_owned), points: points(value)?, closed: true });
+            return Ok(());
+        }
         return list.iter().try_for_each(|entry| add(entry, name, depth + 1, to));
     }
     let entry = |key: &str| value.get(key).unwrap_or(&Value::Null);
@@ -36,6 +48,10 @@ fn add(value: &Value, name: Option<&str>, depth: usize, to: &mut Vec<Contour>) -
         "GeometryCollection" => add(entry("geometries"), name, depth + 1, to),
         "Feature" => {
             let own = entry("properties").get("name").and_then(Value::as_str).or_else(|| entry("id").as_str());
+            // A feature without a place.
+            if entry("geometry").is_null() {
+                return Ok(());
+            }
             add(entry("geometry"), own.or(name), depth + 1, to)
         }
         "Polygon" => polygon(entry("coordinates"), name, to),
@@ -43,6 +59,18 @@ fn add(value: &Value, name: Option<&str>, depth: usize, to: &mut Vec<Contour>) -
         "LineString" => {
             to.push(Contour { name: name.map(str::to_owned), points: points(entry("coordinates"))?, closed: false });
             Ok(())
+        }
+        "MultiLineString" => list(entry("coordinates"))?.iter().try_for_each(|one| {
+            to.push(Contour { name: name.map(str::to_owned), points: points(one)?, closed: false });
+            Ok(())
+        }),
+        "" => {
+            let keys = value.as_object().map(|object| object.keys().take(4).map(|key| quoted(key)).collect::<Vec<_>>());
+            let what = match keys {
+                Some(keys) if !keys.is_empty() => format!("the keys {} are not GeoJSON", keys.join(", ")),
+                _ => "this is not GeoJSON".to_owned(),
+            };
+            Err(OutlineError::format("the file", what, REMEDY))
         }
         other => {
             let problem = format!("the type {:?} is not an outline", quoted(other));

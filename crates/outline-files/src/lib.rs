@@ -18,6 +18,7 @@
 //! Reading never panics and never guesses: what is not understood is refused with the place in the file and a remedy.
 
 mod csv;
+mod encoding;
 mod error;
 mod file;
 mod geojson;

@@ -99,8 +99,10 @@ fn meeting([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> Vec2 {
     if t.is_finite() { a.lerp(b, t.clamp(0.0, 1.0)) } else { a }
 }
 
-/// Returns the line through points that repeats itself along x with a period: finite, without repeated points, towards
-/// larger x. A last point that is the image of the first is left out.
+/// Returns the line through points that repeats itself along x with a period (length).
+///
+/// The line runs towards larger x and has no repeated points. If the last point is the image of the first one, it is
+/// left out.
 ///
 /// # Errors
 /// Returns an error for a period that is not positive, points that are not finite, and fewer than two different points.
@@ -150,7 +152,7 @@ pub(crate) fn along(points: &[Vec2], period: f64) -> Result<Outline, OutlineErro
     Ok(Outline { points: kept, area, perimeter, centroid, repeated, was_clockwise })
 }
 
-/// Returns the points without those that repeat the one before.
+/// Removes points that repeat the point before them.
 fn without_repeats(points: &[Vec2]) -> Result<Vec<Vec2>, OutlineError> {
     let usable = |point: &Vec2| point.abs().max_element() < MOST && point.is_finite();
     if let Some(number) = points.iter().position(|point| !usable(point)) {

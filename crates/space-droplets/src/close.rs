@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile_base::internal::{gauss_legendre, widely};
-use sphere_harmonics::{Point, Tilt, count, derivatives, harmonics, index, turn_about_z};
+use sphere_harmonics::{Harmonics, HarmonicsError, Point, Tilt, count, index, turn_about_z};
 
 use crate::SpaceError;
 use crate::layers::Vectors;
@@ -25,14 +25,20 @@ pub(crate) struct Nearest {
 }
 
 /// Finds the nearest point from a parameter close to it, by Gauss-Newton steps in the tangent plane.
-pub(crate) fn nearest(positions: [&[f64]; 3], target: [f64; 3], start: Point) -> Result<Nearest, SpaceError> {
+pub(crate) fn nearest(
+    positions: [&[f64]; 3],
+    target: [f64; 3],
+    start: Point,
+    here: &mut Harmonics,
+) -> Result<Nearest, SpaceError> {
     let mut direction = start.direction();
     let mut best: Option<Nearest> = None;
     for _ in 0..MOST {
         let parameter = Point::towards(direction);
         let mut along = [[0.0; 3]; 3];
+        here.place(parameter)?;
         for (i, field) in positions.iter().enumerate() {
-            let [value, theta, phi] = derivatives(field, parameter)?;
+            let [value, theta, phi] = here.derivatives(field)?;
             (along[0][i], along[1][i], along[2][i]) = (value, theta, phi);
         }
         let [place, a, b] = along;
@@ -88,10 +94,60 @@ pub(crate) struct Close {
     waves: [Vec<f64>; 2],
 }
 
+/// Memory for close targets of droplets of one degree.
+#[derive(Debug, Clone)]
+pub(crate) struct Work {
+    pub(crate) here: Harmonics,
+    rings: RingWork,
+    /// Sums over the points times the harmonics about the nearest point, component after component.
+    sums: Vec<f64>,
+    kernel: Vec<f64>,
+    turned: Vec<f64>,
+}
+
+/// Memory for the values on rings.
+#[derive(Debug, Clone)]
+struct RingWork {
+    functions: Harmonics,
+    tilt: Tilt,
+    seen: Vec<f64>,
+    turned: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Work {
+    /// Creates memory for a degree.
+    pub(crate) fn new(degree: usize) -> Result<Self, HarmonicsError> {
+        let (n, columns) = (count(degree), 2 * rings_of(degree));
+        let rings = RingWork {
+            functions: Harmonics::new(degree)?,
+            tilt: Tilt::new(degree, 0.0)?,
+            seen: vec![0.0; 6 * n],
+            turned: vec![0.0; n],
+            values: vec![0.0; 6 * columns],
+        };
+        let here = Harmonics::new(degree)?;
+        Ok(Self { here, rings, sums: vec![0.0; 6 * n], kernel: vec![0.0; 6 * columns], turned: vec![0.0; n] })
+    }
+
+    /// Makes the memory fit another degree.
+    pub(crate) fn fit(&mut self, degree: usize) -> Result<(), HarmonicsError> {
+        if self.here.degree() != degree {
+            *self = Self::new(degree)?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the number of rings of the rule for a degree.
+fn rings_of(degree: usize) -> usize {
+    (3 * degree / 2).max(24)
+}
+
 impl Close {
     /// Creates the rule for droplets of one degree.
     pub(crate) fn new(degree: usize) -> Self {
-        let rings = (3 * degree / 2).max(24);
+        let rings = rings_of(degree);
         let columns = 2 * rings;
         let wave = |function: fn(f64) -> f64| {
             let angle = move |m: usize, j: usize| TAU * (m * j % columns) as f64 / columns as f64;
@@ -108,9 +164,10 @@ impl Close {
         forces: [&[f64]; 3],
         target: [f64; 3],
         nearest: &Nearest,
+        work: &mut Work,
     ) -> Result<[f64; 3], SpaceError> {
         let mut sums = [0.0; 3];
-        self.rings([positions, forces], nearest, |weight, _, values| {
+        self.rings(&mut work.rings, [positions, forces], nearest, |weight, _, values| {
             let columns = 2 * self.rule.len();
             let (places, forces) = values.split_at(3 * columns);
             for j in 0..columns {
@@ -121,7 +178,7 @@ impl Close {
         Ok(sums.map(|sum| sum / (8.0 * PI)))
     }
 
-    /// Returns the rows of `INT T (u - u(s0)) n dA/(8 pi)` at a target, with the nearest parameter s0: for each
+    /// Writes the rows of `INT T (u - u(s0)) n dA/(8 pi)` at a target, with the nearest parameter s0: for each
     /// coefficient of u the components xx, xy, xz, yy, yz, zz. Takes the coefficients of positions and of the normal
     /// times area.
     pub(crate) fn double_row(
@@ -130,13 +187,14 @@ impl Close {
         normals: [&[f64]; 3],
         target: [f64; 3],
         nearest: &Nearest,
-    ) -> Result<Vec<[f64; 6]>, SpaceError> {
+        work: &mut Work,
+        rows: &mut Vec<[f64; 6]>,
+    ) -> Result<(), SpaceError> {
         let (n, degree, columns) = (count(self.degree), self.degree, 2 * self.rule.len());
-        // Sums over the points times the harmonics about the nearest point, component after component.
-        let mut sums = vec![0.0; 6 * n];
-        let mut kernel = vec![0.0; 6 * columns];
+        let Work { here, rings, sums, kernel, turned } = work;
+        sums.fill(0.0);
         let mut total = [0.0; 6];
-        self.rings([positions, normals], nearest, |weight, functions, values| {
+        self.rings(rings, [positions, normals], nearest, |weight, functions, values| {
             let (places, normals) = values.split_at(3 * columns);
             for j in 0..columns {
                 let at = |list: &[f64]| [list[j], list[columns + j], list[2 * columns + j]];
@@ -163,47 +221,46 @@ impl Close {
             }
         })?;
         // The transpose of a tilt is the tilt between two turns by pi.
-        let tilt = Tilt::new(degree, nearest.parameter.theta)?;
-        let here = harmonics(degree, nearest.parameter)?;
-        let mut rows = vec![[0.0; 6]; n];
-        let mut turned = vec![0.0; n];
+        here.place(nearest.parameter)?;
+        rows.clear();
+        rows.resize(n, [0.0; 6]);
         for (f, sums) in sums.chunks_exact_mut(n).enumerate() {
             turn_about_z(sums, PI)?;
-            tilt.apply(sums, &mut turned)?;
-            turn_about_z(&mut turned, -PI - nearest.parameter.phi)?;
-            for ((row, value), here) in rows.iter_mut().zip(&turned).zip(&here) {
+            rings.tilt.apply(sums, turned)?;
+            turn_about_z(turned, -PI - nearest.parameter.phi)?;
+            for ((row, value), here) in rows.iter_mut().zip(&*turned).zip(here.values()) {
                 row[f] = value - total[f] * here;
             }
         }
-        Ok(rows)
+        Ok(())
     }
 
     /// Calls `visit` for each ring with the weight of its points, the harmonics at phi = 0, and the values of six
     /// fields, field after field.
     fn rings(
         &self,
+        work: &mut RingWork,
         fields: [[&[f64]; 3]; 2],
         nearest: &Nearest,
         mut visit: impl FnMut(f64, &[f64], &[f64]),
     ) -> Result<(), SpaceError> {
         let (n, degree, columns) = (count(self.degree), self.degree, 2 * self.rule.len());
-        let tilt = Tilt::new(degree, nearest.parameter.theta)?;
-        let mut seen = vec![0.0; 6 * n];
-        let mut turned = vec![0.0; n];
+        let RingWork { functions, tilt, seen, turned, values } = work;
+        tilt.turn_to(nearest.parameter.theta)?;
         for (field, seen) in fields.iter().flatten().zip(seen.chunks_exact_mut(n)) {
             turned.copy_from_slice(field);
-            turn_about_z(&mut turned, nearest.parameter.phi)?;
-            tilt.apply(&turned, seen)?;
+            turn_about_z(turned, nearest.parameter.phi)?;
+            tilt.apply(turned, seen)?;
         }
         // theta = d sinh(y).
         let scale = (nearest.distance.abs() / nearest.stretch).max(1e-6);
         let end = (PI / scale).asinh();
-        let mut values = vec![0.0; 6 * columns];
         for (x, weight) in &self.rule {
             let y = 0.5 * (x + 1.0) * end;
             let theta = scale * y.sinh();
             let weight = 0.5 * weight * end * scale * y.cosh() * theta.sin() * TAU / columns as f64;
-            let functions = harmonics(degree, Point { theta, phi: 0.0 })?;
+            functions.place(Point { theta, phi: 0.0 })?;
+            let functions = functions.values();
             widely(
                 #[inline(always)]
                 || {
@@ -226,7 +283,7 @@ impl Close {
                     }
                 },
             );
-            visit(weight, &functions, &values);
+            visit(weight, functions, values);
         }
         Ok(())
     }

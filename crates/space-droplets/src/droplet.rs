@@ -12,6 +12,7 @@ use crate::SpaceError;
 use crate::flow::Flow;
 use crate::layers::{Layers, Vectors};
 use crate::surface::Surface;
+use crate::surroundings::{Around, Source, Surroundings, lists};
 
 /// Largest degree of a droplet: the tables of a larger one take several gigabytes.
 pub const LARGEST_DEGREE: usize = 96;
@@ -29,7 +30,7 @@ pub struct EdgeFollowing {
     pub time: f64,
 }
 
-/// An active droplet in unbounded fluid in three dimensions.
+/// An active droplet in three dimensions, in unbounded fluid or in [`Surroundings`].
 ///
 /// The surface is `X(s)` for points s of the unit sphere, and the particles are m(s) per area of that sphere; both are
 /// sums of harmonics up to a degree. Concentrations are per area, the tension law returns a force per length.
@@ -44,7 +45,7 @@ pub struct SpaceDroplet {
     /// Coefficients x, y, z, particles; then the position of the frame.
     pub(crate) state: Vec<f64>,
     pub(crate) time: f64,
-    /// Volume to which steps return, and its radius.
+    /// Volume that steps restore (length cubed), and the radius of a sphere with this volume (length).
     pub(crate) volume: f64,
     pub(crate) radius: f64,
     pub(crate) surface: Surface,
@@ -52,6 +53,7 @@ pub struct SpaceDroplet {
     pub(crate) layers: Layers,
     pub(crate) gmres: Gmres,
     pub(crate) flow: Flow,
+    pub(crate) around: Option<Box<Around>>,
 }
 
 /// Returns the three fields of coefficients at the start of a list.
@@ -120,6 +122,7 @@ impl SpaceDroplet {
             layers,
             gmres: Gmres::default(),
             flow,
+            around: None,
         };
         let positions: Vec<[f64; 3]> = droplet.surface.grid.points().map(|s| position(s.direction())).collect();
         let n = count(degree);
@@ -193,6 +196,19 @@ impl SpaceDroplet {
         Ok(self)
     }
 
+    /// Puts the droplet, at its position in the laboratory, into surroundings such as a [`crate::Slit`].
+    ///
+    /// # Errors
+    /// Returns [`SpaceError::Wall`] if the droplet is not in the fluid.
+    pub fn with_surroundings(mut self, surroundings: impl Surroundings + 'static) -> Result<Self, SpaceError> {
+        let mut source = Source::new(&self);
+        source.update(&mut self)?;
+        surroundings.check(self.time, 0, lists(&source.places))?;
+        self.around = Some(Box::new(Around { surroundings: Box::new(surroundings), source }));
+        self.flow.known = false;
+        Ok(self)
+    }
+
     /// Lets the parameters follow the edge of the particles.
     ///
     /// # Errors
@@ -256,8 +272,8 @@ impl SpaceDroplet {
         &self.state
     }
 
-    /// Continues from a state that [`SpaceDroplet::state`] returned at that time. The volume stays the one of this
-    /// droplet.
+    /// Continues from a state that [`SpaceDroplet::state`] returned at that time. The volume of this droplet
+    /// does not change.
     ///
     /// # Errors
     /// Returns an error if the time is not finite, if the state is of another degree, or if its surface has failed. The

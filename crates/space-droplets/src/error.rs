@@ -34,6 +34,18 @@ pub enum SpaceError {
         /// The problem in words.
         problem: &'static str,
     },
+    /// A droplet crosses a wall.
+    #[error("at time {time} droplet {droplet} crosses {wall}. {remedy}")]
+    Wall {
+        /// Time of the state.
+        time: f64,
+        /// Number of the droplet.
+        droplet: usize,
+        /// The wall and what is known of the distance, in words.
+        wall: String,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// Two droplets overlap.
     #[error(
         "at time {time} droplets {first} and {second} overlap. Move them apart, or use a repulsion or shorter steps"
@@ -49,7 +61,7 @@ pub enum SpaceError {
     /// The velocities for two viscosities were not found.
     #[error(
         "the flow for the viscosities {inside} inside and {outside} outside was not found: the residual is \
-         {residual:e} after {iterations} iterations. Use a ratio closer to 1 or a higher degree"
+         {residual:.1e} after {iterations} iterations. Use a ratio closer to 1 or a higher degree"
     )]
     NotConverged {
         /// Viscosity inside.
@@ -63,7 +75,7 @@ pub enum SpaceError {
     },
     /// Newton's method did not find a steady state.
     #[error(
-        "no steady state was found: the residual is {residual:e} after {iterations} iterations. Start closer to the \
+        "no steady state was found: the residual is {residual:.1e} after {iterations} iterations. Start closer to the \
          steady state, for example from the end of a longer run, or use a higher degree"
     )]
     NoSteadyState {
@@ -74,8 +86,8 @@ pub enum SpaceError {
     },
     /// Adaptive steps became too short.
     #[error(
-        "at time {time} the time step would have to fall to {step}. Use a larger tolerance, a higher degree or less \
-         activity"
+        "at time {time} the time step would have to fall to {step:.1e}. Use a larger tolerance, a higher degree or a \
+         weaker activity"
     )]
     Stagnation {
         /// Time of the state.

@@ -20,6 +20,8 @@ pub(crate) const MOST_ITERATIONS: usize = 200;
 #[derive(Debug, Clone)]
 pub(crate) struct Flow {
     pub(crate) known: bool,
+    /// The velocities were taken from a saved state of the present one.
+    pub(crate) solved: bool,
     /// Concentrations, tensions and their slopes, on the fine grid.
     pub(crate) concentrations: Vec<f64>,
     pub(crate) tensions: Vec<f64>,
@@ -63,6 +65,11 @@ impl SpaceDroplet {
             for (values, field) in self.surface.normals.iter().zip(&mut self.flow.normals) {
                 self.surface.grid.forward(values, field)?;
             }
+        }
+        if let Some(mut around) = self.around.take() {
+            let outcome = around.apply(self);
+            self.around = Some(around);
+            outcome?;
         }
         Ok(())
     }
@@ -182,16 +189,32 @@ impl SpaceDroplet {
     /// Solves for the velocities of a droplet that is alone.
     fn solve(&mut self) -> Result<(), SpaceError> {
         let [inside, outside] = self.viscosities;
-        let Self { nodes, layers, flow, gmres, viscosities, .. } = self;
-        if inside == outside {
+        let Self { nodes, layers, flow, gmres, viscosities, around, surface, .. } = self;
+        if inside == outside || std::mem::take(&mut flow.solved) {
             return Ok(());
         }
         let (at_nodes, results) = (&mut flow.at_nodes, &mut flow.results);
+        let (field, mut failed) = (&mut flow.scalar, Ok(()));
         let matrix = |x: &[f64], out: &mut [f64], _accuracy: f64| {
             product(nodes, layers, [&mut *at_nodes, &mut *results], *viscosities, x, out);
+            if let Some(around) = around {
+                let n = nodes.coefficients();
+                // The lengths fit: transforms cannot fail.
+                for (field, values) in fields(x, n).iter().zip(&mut around.source.velocities) {
+                    let _ = surface.grid.backward(field, values);
+                }
+                if let Err(error) = around.double() {
+                    failed = Err(error);
+                }
+                for (values, out) in around.source.doubles[0].iter().zip(out.chunks_exact_mut(n)) {
+                    let _ = nodes.forward(values, field);
+                    out.iter_mut().zip(&*field).for_each(|(out, value)| *out -= (outside - inside) * value);
+                }
+            }
         };
         let outcome = gmres.solve(matrix, &flow.right, &mut flow.velocities, TOLERANCE, MOST_ITERATIONS);
         flow.iterations = outcome.iterations;
+        failed?;
         converged(outcome, self.viscosities)
     }
 
@@ -284,7 +307,11 @@ impl SpaceDroplet {
         self.update_right()?;
         self.solve()?;
         self.update_droplet_velocity()?;
-        let Self { surface, flow, .. } = self;
+        let Self { surface, flow, around, .. } = self;
+        if around.is_some() {
+            // Walls feel where the droplet is across the axis, so that a shift is a disturbance.
+            flow.velocity[..2].fill(0.0);
+        }
         for k in 0..surface.weights.len() {
             let normal = at(&surface.normals, k);
             flow.tangential[0][k] = dot(flow.relative(k), normal) / dot(at(directions, k), normal);
@@ -398,6 +425,7 @@ impl Flow {
         let list = |len: usize| vec![0.0; len];
         Self {
             known: false,
+            solved: false,
             concentrations: list(fine),
             tensions: list(fine),
             forces: vectors(n),

@@ -54,6 +54,11 @@ impl SpaceDroplet {
     /// Returns the errors of [`SpaceDroplet::evaluate`].
     pub fn observe(&mut self) -> Result<Observation, SpaceError> {
         self.evaluate()?;
+        Ok(self.measured())
+    }
+
+    /// Returns all measurements of the state that was evaluated last.
+    pub(crate) fn measured(&self) -> Observation {
         let n = count(self.degree);
         let (surface, flow) = (&self.surface, &self.flow);
         let velocity = flow.velocity;
@@ -72,16 +77,16 @@ impl SpaceDroplet {
         let stresslet = |i: usize, j: usize| full[i][j] + full[j][i] - if i == j { trace } else { 0.0 };
         let net = (4.0 * std::f64::consts::PI).sqrt();
         let twist = |i: usize, j: usize| force_moments[i][j] - force_moments[j][i];
-        Ok(Observation {
+        Observation {
             time: self.time,
             position: std::array::from_fn(|i| self.state[4 * n + i] + centroid[i]),
             velocity,
             speed,
             heading: if speed > 0.0 { velocity.map(|v| v / speed) } else { [0.0; 3] },
             volume,
-            area: surface.integral(|k| surface.area[k]),
+            area: self.area(),
             semi_axes: self.semi_axes(),
-            particles: net * self.state[3 * n],
+            particles: self.particle_number(),
             concentrations: [fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max)],
             force_moments,
             stresslet: std::array::from_fn(|i| std::array::from_fn(|j| stresslet(i, j))),
@@ -90,7 +95,19 @@ impl SpaceDroplet {
                 [twist(2, 1), twist(0, 2), twist(1, 0)],
             ],
             tails: self.tails(),
-        })
+        }
+    }
+
+    /// Returns the area (length squared) of the state that was evaluated last, or of a new droplet.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.surface.integral(|k| self.surface.area[k])
+    }
+
+    /// Returns the number of particles.
+    #[must_use]
+    pub fn particle_number(&self) -> f64 {
+        (4.0 * std::f64::consts::PI).sqrt() * self.particles()[0]
     }
 
     /// Returns the semi-axes (length), largest first, of the ellipsoid with the same second moments of the volume. It
@@ -165,25 +182,35 @@ impl SpaceDroplet {
     /// that are not small.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let mut warnings: Vec<String> = self.tension.warning().into_iter().collect();
+        self.doubts().into_iter().map(|(cause, _, message)| format!("{cause}: {message}")).collect()
+    }
+
+    /// Returns the warnings as cause, excess over the limit, and what to do.
+    pub(crate) fn doubts(&self) -> Vec<(&'static str, f64, String)> {
+        let of_law = self.tension.warning().map(|message| ("the tension law has a flaw", 1.0, message));
+        let mut doubts: Vec<_> = of_law.into_iter().collect();
         let fold = |start: f64, pick: fn(f64, f64) -> f64| self.flow.concentrations.iter().copied().fold(start, pick);
         let (least, most) = (fold(f64::INFINITY, f64::min), fold(0.0, f64::max));
         let remedy = format!("Use a degree above {}, or let the parameters follow the edge", self.degree);
-        if least < -UNDERSHOOT * most {
-            warnings.push(format!(
-                "the concentration is negative, {least:.3e}, because the edge of the particles is too sharp for the \
-                 degree. {remedy}"
-            ));
+        let undershoot = -least / (UNDERSHOOT * most);
+        if undershoot > 1.0 {
+            let message = format!(
+                "the minimum is {least:.3e}, because the edge of the particles is too sharp for the degree. {remedy}"
+            );
+            doubts.push(("the concentration is negative", undershoot, message));
         }
         let [shape, particles] = self.tails();
-        for (what, tail, large) in [("shape", shape, LARGE_SHAPE_TAIL), ("particles", particles, LARGE_TAIL)] {
+        let tails = [
+            ("the shape is not resolved", shape, LARGE_SHAPE_TAIL),
+            ("the particles are not resolved", particles, LARGE_TAIL),
+        ];
+        for (cause, tail, large) in tails {
             if tail > large {
-                warnings.push(format!(
-                    "the highest two degrees of the {what} are {tail:.1e} of all, so that it is not resolved. {remedy}"
-                ));
+                let message = format!("the highest two degrees are {tail:.1e} of all. {remedy}");
+                doubts.push((cause, tail / large, message));
             }
         }
-        warnings
+        doubts
     }
 }
 

@@ -99,7 +99,7 @@ pub(crate) fn advance<R: Runs>(
     let shortest = SHORTEST / run.fastest().max(1.0 / (until - begin));
     if shortest * MOST_STEPS < SHORTEST * (until - begin) {
         let what = "the run would take more than 1e8 steps";
-        return Err(SpaceError::refused(what, "", "Use less tension or activity, or run for less time"));
+        return Err(SpaceError::refused(what, "", "Use a smaller tension, a weaker activity or a shorter run"));
     }
     let bound = integrator.error_bound();
     let (constant, tolerance) = match step_size {
@@ -269,6 +269,7 @@ impl Dynamics for SpaceDroplet {
     fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
         self.state.copy_from_slice(state);
         self.flow.known = false;
+        self.flow.solved = false;
         Ok(())
     }
 

@@ -1,21 +1,25 @@
 //! Several droplets in one fluid.
 
 mod coupling;
+mod field;
+mod gaps;
 mod repulsion;
+
+use std::ops::Range;
 
 use motile_base::internal::{Refuse, at_least};
 use motile_scene::{
     Repulsion, SceneError, StepSize,
     integrator::{Dynamics, Integrator},
 };
-use sphere_harmonics::count;
+use sphere_harmonics::{Point, count};
 use stokes_boundary_integrals::internal::gmres::Gmres;
 
-use crate::close::{Close, nearest, nearest_on_grid};
-use crate::droplet::fields;
+use crate::close::{Close, Work};
 use crate::layers::Vectors;
 use crate::run::{RunReport, Runs, advance};
-use crate::surface::{Surface, at, dot, vectors};
+use crate::surface::{at, dot, vectors};
+use crate::surroundings::{Source, Surroundings, Targets, add_imposed, lists, lists_mut};
 use crate::{SpaceDroplet, SpaceError};
 
 /// Several droplets in one unbounded fluid, each at its position ([`SpaceDroplet::with_position`]).
@@ -45,16 +49,21 @@ use crate::{SpaceDroplet, SpaceError};
 pub struct SpaceDroplets {
     droplets: Vec<SpaceDroplet>,
     repulsion: Option<Repulsion>,
+    surroundings: Option<Box<dyn Surroundings>>,
     sources: Vec<Source>,
     close: Vec<Close>,
-    /// For each droplet, the rows of the double layers of others at its nodes close to them.
-    rows: Vec<Vec<Row>>,
+    /// What each droplet feels of the others.
+    nears: Vec<Near>,
+    /// For each droplet, its part of the velocities.
+    parts: Vec<Range<usize>>,
     gmres: Gmres,
     /// Velocities of all droplets.
     solution: Vec<f64>,
     right: Vec<f64>,
     time: f64,
-    known: bool,
+    pub(crate) known: bool,
+    /// The solution was taken from a saved state of the present one.
+    solved: bool,
 }
 
 /// The double layer of a droplet at a node of another one that is close to it.
@@ -62,26 +71,50 @@ pub struct SpaceDroplets {
 struct Row {
     from: usize,
     node: usize,
+    /// Shift to the periodic image that is close.
+    image: Option<[f64; 3]>,
     row: Vec<[f64; 6]>,
 }
 
-/// A droplet as the others feel it, in the laboratory.
-#[derive(Debug, Clone)]
-struct Source {
-    places: Vectors,
-    forces: Vectors,
-    /// Normals times area and weight, and velocities.
-    normals: Vectors,
-    velocities: Vectors,
-    /// Nodes in the frame of the droplet, and what the double layers of others give there.
-    nodes: Vectors,
-    doubles: [Vectors; 2],
-    position: [f64; 3],
-    /// Largest distance of the surface from the origin of the frame.
-    reach: f64,
-    /// Forces of the repulsion per area of the unit sphere, on the fine grid and as coefficients.
-    pushed: Vectors,
-    pushes: Vectors,
+/// What a droplet feels of the others, and memory for it.
+#[derive(Debug)]
+struct Near {
+    to: usize,
+    /// Single layers of the others at the nodes.
+    flow: Vectors,
+    /// Rows of the double layers of others at nodes close to them, of which some are used.
+    rows: Vec<Row>,
+    used: usize,
+    /// Double layers of the others at the nodes.
+    doubles: Vectors,
+    part: Vectors,
+    shifts: Vec<[f64; 3]>,
+    /// Nodes close to one droplet, their places in its frame, the parameter nearest to them, and the flow before.
+    close: Vec<(usize, [f64; 3], Point, [f64; 3])>,
+    place: Vectors,
+    velocity: Vectors,
+    work: Work,
+    outcome: Result<(), SpaceError>,
+}
+
+impl Near {
+    fn new(to: usize, droplet: &SpaceDroplet) -> Result<Self, SpaceError> {
+        let nodes = || vectors(droplet.nodes.len());
+        Ok(Self {
+            to,
+            flow: nodes(),
+            rows: Vec::new(),
+            used: 0,
+            doubles: nodes(),
+            part: nodes(),
+            shifts: Vec::new(),
+            close: Vec::new(),
+            place: vectors(1),
+            velocity: vectors(1),
+            work: Work::new(droplet.degree)?,
+            outcome: Ok(()),
+        })
+    }
 }
 
 impl SpaceDroplets {
@@ -94,6 +127,11 @@ impl SpaceDroplets {
         at_least("droplets", droplets.len(), 1)?;
         let first = &droplets[0];
         for (k, droplet) in droplets.iter().enumerate() {
+            if droplet.around.is_some() {
+                let what = format!("droplet {k} has surroundings of its own");
+                let remedy = "Give them to all droplets with `SpaceDroplets::with_surroundings` instead";
+                return Err(SpaceError::refused(what, "", remedy));
+            }
             if droplet.viscosities[1] != first.viscosities[1] || droplet.gradient != first.gradient {
                 let what = format!("droplet {k} is in another fluid or imposed flow than droplet 0");
                 return Err(SpaceError::refused(what, "", "Give all droplets the same viscosity outside and flow"));
@@ -101,27 +139,29 @@ impl SpaceDroplets {
         }
         let source = |droplet: &SpaceDroplet| {
             let (fine, n) = (droplet.surface.grid.len(), count(droplet.degree));
-            let (fine, nodes) = (|| vectors(fine), || vectors(droplet.nodes.len()));
-            Source {
-                places: fine(),
-                forces: fine(),
-                normals: fine(),
-                velocities: fine(),
-                nodes: nodes(),
-                doubles: [nodes(), nodes()],
-                position: [0.0; 3],
-                reach: 0.0,
-                pushed: fine(),
-                pushes: vectors(n),
-            }
+            Source { pushed: vectors(fine), pushes: vectors(n), ..Source::new(droplet) }
         };
         let sources = droplets.iter().map(source).collect();
         let close = droplets.iter().map(|droplet| Close::new(droplet.degree)).collect();
         let time = first.time;
-        let rows = droplets.iter().map(|_| Vec::new()).collect();
+        let nears =
+            droplets.iter().enumerate().map(|(to, droplet)| Near::new(to, droplet)).collect::<Result<_, _>>()?;
         let (gmres, solution, right) = (Gmres::default(), Vec::new(), Vec::new());
-        let mut all =
-            Self { droplets, repulsion: None, sources, close, rows, gmres, solution, right, time, known: false };
+        let mut all = Self {
+            droplets,
+            repulsion: None,
+            surroundings: None,
+            sources,
+            close,
+            nears,
+            parts: Vec::new(),
+            gmres,
+            solution,
+            right,
+            time,
+            known: false,
+            solved: false,
+        };
         all.evaluate()?;
         Ok(all)
     }
@@ -133,6 +173,37 @@ impl SpaceDroplets {
         self.repulsion = Some(repulsion);
         self.known = false;
         self
+    }
+
+    /// Puts all droplets into surroundings, such as a [`crate::Slit`].
+    ///
+    /// # Errors
+    /// Returns [`SpaceError::Wall`] if a droplet is not in the fluid.
+    pub fn with_surroundings(mut self, surroundings: impl Surroundings + 'static) -> Result<Self, SpaceError> {
+        for (k, source) in self.sources.iter().enumerate() {
+            surroundings.check(self.time, k, lists(&source.places))?;
+        }
+        self.surroundings = Some(Box::new(surroundings));
+        self.known = false;
+        Ok(self)
+    }
+
+    /// Adds the flow that the surroundings add, at the nodes of all droplets.
+    fn surround(&mut self) -> Result<(), SpaceError> {
+        let Self { droplets, surroundings, sources, time, .. } = self;
+        let Some(surroundings) = surroundings else { return Ok(()) };
+        for (k, (source, droplet)) in sources.iter().zip(&mut *droplets).enumerate() {
+            surroundings.check(*time, k, lists(&source.places))?;
+            let external = &mut droplet.flow.external;
+            add_imposed(&**surroundings, droplet.viscosities[1], &source.lab_nodes, external);
+        }
+        let all: Vec<_> = sources.iter().map(Source::forces).collect();
+        let target = |(source, droplet)| {
+            let (source, droplet): (&Source, &mut SpaceDroplet) = (source, droplet);
+            Targets { places: lists(&source.lab_nodes), flow: lists_mut(&mut droplet.flow.external) }
+        };
+        let mut targets: Vec<_> = sources.iter().zip(&mut *droplets).map(target).collect();
+        surroundings.add_flow(&all, &mut targets)
     }
 
     /// Returns the droplets.
@@ -155,34 +226,17 @@ impl SpaceDroplets {
         self.evaluate()?;
         let most = self.droplets.len();
         let missing = || SpaceError::refused(format!("there is no droplet {droplet}"), "", format!("There are {most}"));
-        self.droplets.get_mut(droplet).ok_or_else(missing)?.observe()
-    }
-
-    /// Returns the smallest gap (length) between the surfaces of two droplets, from the points of the first's grid.
-    ///
-    /// # Errors
-    /// Returns an error if there are no droplets of these two numbers, or the errors of [`SpaceDroplets::evaluate`].
-    pub fn gap(&mut self, first: usize, second: usize) -> Result<f64, SpaceError> {
-        self.evaluate()?;
-        if first.max(second) >= self.droplets.len() || first == second {
-            let what = format!("there are no two droplets {first} and {second}");
-            return Err(SpaceError::refused(what, "", format!("Use two numbers below {}", self.droplets.len())));
-        }
-        let (here, other) = (&self.droplets[first], &self.droplets[second]);
-        let relative = |k: usize| self.relative(first, second, at(&here.surface.positions, k));
-        let distance = |k: usize| nearest_on_grid(&other.surface, relative(k));
-        let (mut best, mut start) = (0, f64::INFINITY);
-        for k in 0..here.surface.weights.len() {
-            let found = distance(k).1;
-            if found < start {
-                (best, start) = (k, found);
-            }
-        }
-        let positions = fields(&other.state, count(other.degree));
-        Ok(nearest(positions, relative(best), distance(best).0)?.distance)
+        let time = self.time;
+        let droplet = self.droplets.get_mut(droplet).ok_or_else(missing)?;
+        droplet.time = time;
+        droplet.observe()
     }
 
     fn overlap(&self, one: usize, other: usize) -> SpaceError {
+        if one == other {
+            let what = format!("at time {} droplet {one} overlaps its periodic image", self.time);
+            return SpaceError::refused(what, "", "Enlarge the box, shrink the droplet, or use shorter steps");
+        }
         SpaceError::Overlap { time: self.time, first: one.min(other), second: one.max(other) }
     }
 
@@ -201,6 +255,7 @@ impl SpaceDroplets {
             return Ok(());
         }
         for (droplet, source) in self.droplets.iter_mut().zip(&mut self.sources) {
+            droplet.time = self.time;
             droplet.prepare()?;
             let n = count(droplet.degree);
             source.position.copy_from_slice(&droplet.state[4 * n..]);
@@ -211,22 +266,11 @@ impl SpaceDroplets {
             self.repel(repulsion)?;
         }
         for (droplet, source) in self.droplets.iter_mut().zip(&mut self.sources) {
-            let Surface { grid, weights, positions, normals, .. } = &mut droplet.surface;
-            for (field, values) in droplet.flow.forces.iter().zip(&mut source.forces) {
-                grid.backward(field, values)?;
-                values.iter_mut().zip(&*weights).for_each(|(value, weight)| *value *= weight);
-            }
-            for ((places, positions), shift) in source.places.iter_mut().zip(&*positions).zip(source.position) {
-                places.iter_mut().zip(positions).for_each(|(place, position)| *place = position + shift);
-            }
-            for (scaled, normals) in source.normals.iter_mut().zip(&*normals) {
-                let products = normals.iter().zip(&*weights).map(|(normal, weight)| normal * weight);
-                scaled.iter_mut().zip(products).for_each(|(scaled, product)| *scaled = product);
-            }
-            source.nodes.clone_from(&droplet.flow.at_nodes);
+            source.update(droplet)?;
         }
         self.couple()?;
-        if self.droplets.len() > 1
+        self.surround()?;
+        if (self.droplets.len() > 1 || self.surroundings.is_some())
             && self.droplets.iter().any(|droplet| droplet.viscosities[0] != droplet.viscosities[1])
         {
             self.solve()?;
@@ -253,8 +297,34 @@ impl SpaceDroplets {
         advance(self, until, step_size, integrator, observe)
     }
 
+    /// Centres all frames, restores the volumes, and returns the largest change of a volume over itself.
+    pub(crate) fn restore(&mut self) -> Result<f64, SpaceError> {
+        self.known = false;
+        let mut largest = 0.0_f64;
+        for droplet in &mut self.droplets {
+            largest = largest.max(droplet.restore()?);
+        }
+        Ok(largest)
+    }
+
+    /// Takes over the velocities of the present state, which the next evaluation keeps, or starts its iterations from
+    /// rest.
+    pub(crate) fn start_from(&mut self, velocities: Option<&[f64]>) {
+        self.solution.clear();
+        self.solved = velocities.is_some();
+        let mut rest = velocities.unwrap_or_default();
+        for droplet in &mut self.droplets {
+            droplet.flow.solved = self.solved;
+            let (own, others) = rest.split_at(rest.len().min(droplet.flow.velocities.len()));
+            rest = others;
+            droplet.flow.velocities.fill(0.0);
+            droplet.flow.velocities[..own.len()].copy_from_slice(own);
+            self.solution.extend_from_slice(&droplet.flow.velocities);
+        }
+    }
+
     /// Calls `work` with each droplet and its part of a list.
-    fn parts(droplets: &[SpaceDroplet], mut work: impl FnMut(&SpaceDroplet, std::ops::Range<usize>)) {
+    pub(crate) fn parts(droplets: &[SpaceDroplet], mut work: impl FnMut(&SpaceDroplet, Range<usize>)) {
         let mut start = 0;
         for droplet in droplets {
             let end = start + droplet.state.len();
@@ -283,11 +353,7 @@ impl Runs for SpaceDroplets {
     }
 
     fn finish_step(&mut self) -> Result<f64, SpaceError> {
-        let mut largest = 0.0_f64;
-        for droplet in &mut self.droplets {
-            largest = largest.max(droplet.restore()?);
-        }
-        self.known = false;
+        let largest = self.restore()?;
         self.evaluate()?;
         Ok(largest)
     }
@@ -319,6 +385,7 @@ impl Dynamics for SpaceDroplets {
             start = end;
         }
         self.known = false;
+        self.solved = false;
         Ok(())
     }
 

@@ -32,11 +32,16 @@ const CENTRAL: [(f64, f64); 4] = [(1.0, 8.0 / 12.0), (-1.0, -8.0 / 12.0), (2.0, 
 const ODD: [(f64, f64); 2] = [(1.0, 8.0 / 6.0), (2.0, -1.0 / 6.0)];
 /// Largest relative change of an unknown in an iteration.
 const LONGEST: f64 = 0.3;
-/// Width of the crowded parameters, in units of the range of the concentration over its steepest slope.
-const WIDTH: f64 = 0.45;
+/// Degree from which parameters crowd twice, in a wider band: a lower one does not see the edge well enough.
+const FINE: usize = 20;
+/// Widths of the crowded parameters, in units of the range of the concentration over its steepest slope, below this
+/// degree and from it on (measured).
+const WIDTHS: [f64; 2] = [0.45, 0.6];
 /// Edges between these widths (radians) are crowded.
 const WIDEST: f64 = 0.6;
 const NARROWEST: f64 = 0.05;
+/// Part of the width before, above which parameters crowd enough.
+const SAME_WIDTH: f64 = 0.9;
 /// Rise of the residual in an iteration that is still accepted.
 const LARGEST_RISE: f64 = 3.0;
 /// First time step of the iteration, in units of the time scale of the start.
@@ -131,16 +136,38 @@ impl SteadyState {
         if droplet.gradient.iter().flatten().any(|&entry| entry != 0.0) {
             return Err(SpaceError::refused(what, "an imposed flow acts on it", "Use a droplet without one"));
         }
+        if droplet.around.as_ref().is_some_and(|around| !around.surroundings.symmetric_about_z()) {
+            let value = "its surroundings are not symmetric about the z axis";
+            return Err(SpaceError::refused(what, value, "Use a tube along z, or no surroundings"));
+        }
+        let place = &droplet.state[4 * n..];
+        if droplet.around.is_some() && place[0].hypot(place[1]) > 1e-6 * droplet.radius {
+            let remedy = "Start from a droplet whose centroid is on the z axis";
+            return Err(SpaceError::refused(what, "it is off the axis of its surroundings", remedy));
+        }
         let solid_angles = vec![1.0; values.len()];
         Ok(Self { droplet, radii, directions, solid_angles, rates: vec![0.0; n], iterations: 0 })
     }
 
-    /// Crowds the parameters at the edge of the particles, if they have one, and finds the state again.
+    /// Crowds the parameters at the edge of the particles, if they have one, and finds the state again. Then the edge
+    /// is seen better, and the parameters crowd once more if it is narrower.
     fn crowd(&mut self) -> Result<(), SpaceError> {
-        let n = count(self.droplet.degree);
+        let mut before: Option<Crowding> = None;
+        let times = if self.droplet.degree < FINE { 1 } else { 2 };
+        for _ in 0..times {
+            let Some(crowding) = self.edge(before.as_ref()) else { break };
+            self.crowd_from(before.as_ref(), &crowding)?;
+            before = Some(crowding);
+        }
+        Ok(())
+    }
+
+    /// Returns parameters that crowd at the edge of the particles, unless there is none or they do already.
+    fn edge(&self, before: Option<&Crowding>) -> Option<Crowding> {
         let grid = &self.droplet.surface.grid;
         let values = |row: usize| self.droplet.flow.concentrations[row * grid.columns()];
-        let theta = grid.colatitudes();
+        let colatitude = |&t: &f64| before.map_or(t, |before| before.colatitude(t).0);
+        let theta: Vec<f64> = grid.colatitudes().iter().map(colatitude).collect();
         let (mut edge, mut steepest) = (0.0, 0.0_f64);
         let [mut least, mut most] = [values(0); 2];
         for row in 1..theta.len() {
@@ -150,11 +177,18 @@ impl SteadyState {
                 (edge, steepest) = (0.5 * (theta[row] + theta[row - 1]), slope);
             }
         }
-        let width = WIDTH * (most - least) / steepest;
+        let width = WIDTHS[usize::from(self.droplet.degree >= FINE)] * (most - least) / steepest;
         if !(width > 0.0 && width < WIDEST && (0.5..PI - 0.5).contains(&edge)) {
-            return Ok(());
+            return None;
         }
-        let crowding = Crowding::new(edge, width.max(NARROWEST));
+        let width = width.max(NARROWEST);
+        let narrower = before.is_none_or(|before| width < SAME_WIDTH * before.width());
+        narrower.then(|| Crowding::new(edge, width))
+    }
+
+    /// Describes the droplet by other parameters and finds the state again.
+    fn crowd_from(&mut self, before: Option<&Crowding>, crowding: &Crowding) -> Result<(), SpaceError> {
+        let n = count(self.droplet.degree);
         let (radii, mut concentrations) = (self.radii.clone(), vec![0.0; n]);
         self.droplet.surface.grid.forward(&self.droplet.flow.concentrations, &mut concentrations)?;
         let surface = &mut self.droplet.surface;
@@ -164,7 +198,7 @@ impl SteadyState {
         for (row, points) in points.chunks_exact(columns).enumerate() {
             let (theta, slope) = crowding.colatitude(points[0].theta);
             let solid_angle = theta.sin() / (slope * points[0].theta.sin());
-            let here = Point { theta, phi: 0.0 };
+            let here = Point { theta: before.map_or(theta, |before| before.parameter(theta).0), phi: 0.0 };
             let (r, c) = (evaluate(&radii, here)?, evaluate(&concentrations, here)?);
             for (column, point) in points.iter().enumerate() {
                 let k = row * columns + column;
@@ -214,8 +248,9 @@ impl SteadyState {
     /// Returns the growth rates (1/time; the imaginary part is an angular frequency) of disturbances that are products
     /// of `cos(order phi)` and functions of theta, fastest first.
     ///
-    /// Among them are zeros that say nothing about stability: a translation for the orders 0 and 1, and a turn of the
-    /// swimmer for order 1. How far these are from zero shows how well the degree resolves the swimmer. If the
+    /// Among them are zeros that say nothing about stability. In unbounded fluid, these are a translation for the orders
+    /// 0 and 1, and a turn of the swimmer for order 1. In a tube, only the translation along it remains, for order 0. How
+    /// far these are from zero shows how well the degree resolves the swimmer. If the
     /// particles have a sharp edge, modes lie close together and converge slowly: compare the rates of two degrees.
     ///
     /// # Errors

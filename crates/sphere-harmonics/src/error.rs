@@ -10,7 +10,7 @@ pub enum HarmonicsError {
         /// The degree.
         degree: usize,
     },
-    /// A grid on which some harmonics look alike.
+    /// A grid too coarse to distinguish all harmonics, or too large.
     #[error("a grid of {rows} x {columns} points is too coarse for degree {degree}. Use at least {} rows and {} \
              columns, and at most {} of each", degree + 1, 2 * degree + 1, crate::grid::MOST)]
     Grid {
@@ -59,7 +59,7 @@ pub(crate) fn check_degree(degree: usize) -> Result<usize, HarmonicsError> {
     if usable { Ok(degree) } else { Err(HarmonicsError::Degree { degree }) }
 }
 
-/// Returns the degree of a list of so many coefficients.
+/// Returns the degree p for which `found` is the number of coefficients, (p + 1)^2.
 pub(crate) fn degree_of(found: usize) -> Result<usize, HarmonicsError> {
     let degree = found.isqrt().saturating_sub(1);
     let usable = crate::count(degree) == found && (1..=crate::LARGEST_DEGREE).contains(&degree);

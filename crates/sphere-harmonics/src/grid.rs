@@ -169,7 +169,9 @@ impl Grid {
         self.synthesise(Part::Phi, coefficients, values)
     }
 
-    /// Writes the integrals of a function times each harmonic: its coefficients, if it has degree p.
+    /// Writes the integrals of a function times each harmonic.
+    ///
+    /// These are the coefficients of the function if its degree is at most the degree of the grid.
     ///
     /// # Errors
     /// Returns an error if a list has another length than [`Grid::len`] or [`Grid::coefficients`].

@@ -20,10 +20,21 @@ pub(crate) struct Legendre {
 }
 
 impl Legendre {
-    /// Computes all functions up to the degree at theta, by recurrences in l.
+    /// Computes all functions up to the degree at theta.
     pub(crate) fn new(degree: usize, theta: f64) -> Self {
+        let mut table = Self::default();
+        table.update(degree, theta);
+        table
+    }
+
+    /// Computes all functions up to the degree at theta, by recurrences in l, in the same memory.
+    pub(crate) fn update(&mut self, degree: usize, theta: f64) {
         let (s, x) = theta.sin_cos();
-        let mut value = vec![0.0; pair(degree, degree) + 1];
+        for list in [&mut self.value, &mut self.theta, &mut self.phi] {
+            list.clear();
+            list.resize(pair(degree, degree) + 1, 0.0);
+        }
+        let value = &mut self.value;
         value[0] = (0.25 / PI).sqrt();
         for m in 0..=degree {
             let k = m as f64;
@@ -41,11 +52,9 @@ impl Legendre {
                 value[pair(l, m)] = a * (x * value[pair(l - 1, m)] - b * value[pair(l - 2, m)]);
             }
         }
-        let mut table = Self { theta: vec![0.0; value.len()], phi: vec![0.0; value.len()], value };
         for l in 1..=degree {
-            table.differentiate(l);
+            self.differentiate(l);
         }
-        table
     }
 
     /// Fills in the derivatives of degree l.

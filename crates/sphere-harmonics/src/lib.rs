@@ -54,7 +54,7 @@ mod rotation;
 pub use error::HarmonicsError;
 pub use grid::Grid;
 pub use legendre::gauss_legendre;
-pub use point::{Point, derivatives, evaluate, harmonics};
+pub use point::{Harmonics, Point, derivatives, evaluate, harmonics};
 pub use rotation::{Tilt, turn_about_z};
 
 /// Largest degree: the tables of a grid for it take about a gigabyte.

@@ -1,6 +1,6 @@
 //! Evaluation at any point of the sphere.
 
-use crate::error::{check_angle, check_degree, degree_of};
+use crate::error::{check_angle, check_degree, degree_of, same_length};
 use crate::legendre::{Legendre, pair};
 use crate::{HarmonicsError, count, index};
 
@@ -33,19 +33,96 @@ impl Point {
 /// # Errors
 /// Returns an error if the degree is out of range, or if an angle is not finite.
 pub fn harmonics(degree: usize, point: Point) -> Result<Vec<f64>, HarmonicsError> {
-    check_degree(degree)?;
-    check_angle(point.phi)?;
-    let table = Legendre::new(degree, check_angle(point.theta)?);
-    let mut values = vec![0.0; count(degree)];
-    for m in 0..=degree {
-        let (sin, cos) = (m as f64 * point.phi).sin_cos();
-        for l in m..=degree {
-            let value = table.value[pair(l, m)];
-            values[index(l, -(m as isize))] = value * sin;
-            values[index(l, m as isize)] = value * cos;
-        }
+    let mut harmonics = Harmonics::new(degree)?;
+    harmonics.place(point)?;
+    Ok(harmonics.values)
+}
+
+/// The harmonics at one point after the other.
+///
+/// Use this in place of [`harmonics`] and [`derivatives`] if there are many points: only [`Harmonics::new`] allocates.
+///
+/// ```
+/// use sphere_harmonics::{Harmonics, Point};
+///
+/// let mut here = Harmonics::new(1)?;
+/// here.place(Point::towards([0.0, 0.0, 1.0]))?;
+/// // At the north pole, only Y_00 and Y_10 are not zero.
+/// assert!(here.values()[1] == 0.0 && here.values()[2] > 0.0 && here.values()[3] == 0.0);
+/// # Ok::<(), sphere_harmonics::HarmonicsError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Harmonics {
+    degree: usize,
+    table: Legendre,
+    /// Cosine and sine of each order.
+    waves: Vec<[f64; 2]>,
+    values: Vec<f64>,
+}
+
+impl Harmonics {
+    /// Creates memory for harmonics up to a degree, and places it at the north pole.
+    ///
+    /// # Errors
+    /// Returns an error if the degree is out of range.
+    pub fn new(degree: usize) -> Result<Self, HarmonicsError> {
+        check_degree(degree)?;
+        let (waves, values) = (vec![[1.0, 0.0]; degree + 1], vec![0.0; count(degree)]);
+        let mut harmonics = Self { degree, table: Legendre::default(), waves, values };
+        harmonics.place(Point { theta: 0.0, phi: 0.0 })?;
+        Ok(harmonics)
     }
-    Ok(values)
+
+    /// Returns the degree.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Computes all harmonics at a point.
+    ///
+    /// # Errors
+    /// Returns an error if an angle is not finite.
+    pub fn place(&mut self, point: Point) -> Result<(), HarmonicsError> {
+        check_angle(point.phi)?;
+        self.table.update(self.degree, check_angle(point.theta)?);
+        for (m, wave) in self.waves.iter_mut().enumerate() {
+            let (sin, cos) = (m as f64 * point.phi).sin_cos();
+            *wave = [cos, sin];
+            for l in m..=self.degree {
+                let value = self.table.value[pair(l, m)];
+                self.values[index(l, -(m as isize))] = value * sin;
+                self.values[index(l, m as isize)] = value * cos;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the values of all harmonics at the point, by [`index`].
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Returns the value of a function at the point and its derivatives by theta and by phi over sin(theta), as
+    /// [`derivatives`] does.
+    ///
+    /// # Errors
+    /// Returns an error if the number of coefficients belongs to another degree.
+    pub fn derivatives(&self, coefficients: &[f64]) -> Result<[f64; 3], HarmonicsError> {
+        same_length("coefficients", count(self.degree), coefficients.len())?;
+        let mut sums = [0.0; 3];
+        for (m, [cos, sin]) in self.waves.iter().enumerate() {
+            for l in m..=self.degree {
+                let c = coefficients[index(l, m as isize)];
+                let s = if m == 0 { 0.0 } else { coefficients[index(l, -(m as isize))] };
+                sums[0] += self.table.value[pair(l, m)] * (c * cos + s * sin);
+                sums[1] += self.table.theta[pair(l, m)] * (c * cos + s * sin);
+                sums[2] += self.table.phi[pair(l, m)] * (s * cos - c * sin);
+            }
+        }
+        Ok(sums)
+    }
 }
 
 /// Returns the value at a point of the function with these coefficients.
@@ -83,19 +160,7 @@ pub fn evaluate(coefficients: &[f64], point: Point) -> Result<f64, HarmonicsErro
 /// # Errors
 /// Returns an error if the number of coefficients belongs to no degree, or if an angle is not finite.
 pub fn derivatives(coefficients: &[f64], point: Point) -> Result<[f64; 3], HarmonicsError> {
-    let degree = degree_of(coefficients.len())?;
-    check_angle(point.phi)?;
-    let table = Legendre::new(degree, check_angle(point.theta)?);
-    let mut sums = [0.0; 3];
-    for m in 0..=degree {
-        let (sin, cos) = (m as f64 * point.phi).sin_cos();
-        for l in m..=degree {
-            let c = coefficients[index(l, m as isize)];
-            let s = if m == 0 { 0.0 } else { coefficients[index(l, -(m as isize))] };
-            sums[0] += table.value[pair(l, m)] * (c * cos + s * sin);
-            sums[1] += table.theta[pair(l, m)] * (c * cos + s * sin);
-            sums[2] += table.phi[pair(l, m)] * (s * cos - c * sin);
-        }
-    }
-    Ok(sums)
+    let mut harmonics = Harmonics::new(degree_of(coefficients.len())?)?;
+    harmonics.place(point)?;
+    harmonics.derivatives(coefficients)
 }

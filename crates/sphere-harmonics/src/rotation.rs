@@ -47,6 +47,8 @@ pub struct Tilt {
     cosines: Vec<f64>,
     /// The blocks of the sines.
     sines: Vec<f64>,
+    /// Wigner's functions of one pair of orders.
+    spare: [Vec<f64>; 2],
 }
 
 /// Returns the sum of the first n squares: where the block of degree n with n^2 numbers starts.
@@ -61,18 +63,29 @@ impl Tilt {
     /// Returns an error if the degree is out of range, or if the angle (radians) is not finite.
     pub fn new(degree: usize, angle: f64) -> Result<Self, HarmonicsError> {
         check_degree(degree)?;
+        let (cosines, sines) = (vec![0.0; squares(degree + 2)], vec![0.0; squares(degree + 1)]);
+        let mut tilt = Self { degree, cosines, sines, spare: [vec![0.0; degree + 1], vec![0.0; degree + 1]] };
+        tilt.turn_to(angle)?;
+        Ok(tilt)
+    }
+
+    /// Computes the blocks for another angle, in the same memory.
+    ///
+    /// # Errors
+    /// Returns an error if the angle (radians) is not finite.
+    pub fn turn_to(&mut self, angle: f64) -> Result<(), HarmonicsError> {
         check_angle(angle)?;
-        let mut tilt = Self { degree, cosines: vec![0.0; squares(degree + 2)], sines: vec![0.0; squares(degree + 1)] };
+        let degree = self.degree;
         let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let (mut plus, mut minus) = (vec![0.0; degree + 1], vec![0.0; degree + 1]);
+        let [plus, minus] = &mut self.spare;
         for m in 0..=degree {
             for k in 0..=m {
-                wigner(m, k as isize, angle, &mut plus);
-                wigner(m, -(k as isize), angle, &mut minus);
+                wigner(m, k as isize, angle, plus);
+                wigner(m, -(k as isize), angle, minus);
                 for l in m..=degree {
                     let (p, n) = (plus[l], minus[l]);
                     let size = l + 1;
-                    let block = &mut tilt.cosines[squares(l + 1)..];
+                    let block = &mut self.cosines[squares(l + 1)..];
                     if k == 0 {
                         // d_m0 and d_0m = (-1)^m d_m0.
                         let factor = if m == 0 { 1.0 } else { SQRT_2 };
@@ -83,13 +96,13 @@ impl Tilt {
                     // d_km = (-1)^(m-k) d_mk and d_k-m = d_m-k.
                     block[k * size + m] = sign(m + k) * p + sign(m) * n;
                     block[m * size + k] = p + sign(k) * n;
-                    let block = &mut tilt.sines[squares(l)..];
+                    let block = &mut self.sines[squares(l)..];
                     block[(k - 1) * l + m - 1] = sign(m + k) * p - sign(m) * n;
                     block[(m - 1) * l + k - 1] = p - sign(k) * n;
                 }
             }
         }
-        Ok(tilt)
+        Ok(())
     }
 
     /// Returns the degree.

@@ -4,6 +4,7 @@ mod equation;
 mod factors;
 mod inside;
 mod interface;
+mod obstacle;
 mod rigid;
 
 use motile_base::{Vec2, finite, positive, same_length, within};
@@ -25,6 +26,7 @@ use inside::InsideFlow;
 pub use interface::{Inside, Interface};
 use motile_base::{Drive, FlowSample, ImposedFlow, Region, boxes::Periods};
 use num_complex::Complex64;
+pub use obstacle::ObstacleLoad;
 use rigid::RigidWalls;
 
 /// Largest ratio of viscosities: with round-off of 1e-16 velocities are then right to 1e-8.
@@ -222,6 +224,20 @@ impl InterfaceFlow {
                 let (x, y) =
                     walls.forces.as_slice()[entries.start - start..entries.end - start].split_at(entries.len() / 2);
                 Vec2::new(x.iter().sum(), y.iter().sum())
+            })
+        })
+    }
+
+    /// Returns what closed rigid walls bear, wall by wall, from the last solution; `None` for open walls. The fluid
+    /// inside of a closed wall is at rest at one pressure, so that all of it comes from the fluid around.
+    pub fn obstacle_loads(&self) -> impl Iterator<Item = Option<ObstacleLoad>> {
+        let layers = &self.layers;
+        let first = layers.stored.first;
+        self.walls.iter().flat_map(move |walls| {
+            (first..layers.curves.len()).map(move |wall| {
+                let (start, entries, curve) = (layers.entries(first).start, layers.entries(wall), &layers.curves[wall]);
+                let forces = &walls.forces.as_slice()[entries.start - start..entries.end - start];
+                (!curve.is_open()).then(|| ObstacleLoad::of(curve, forces))
             })
         })
     }

@@ -7,6 +7,7 @@
 
 mod close;
 mod rows;
+mod wall_images;
 mod walls;
 
 use std::{
@@ -153,6 +154,9 @@ impl Layers {
         let mut count = 0;
         let mut loaded = self.curves.len() - self.fixed;
         self.starts.truncate(1);
+        if let Some(walls) = &mut self.walls {
+            walls.clear();
+        }
         for (index, (LayerCurve { nodes, .. }, _)) in curves.clone().enumerate() {
             let plan = self.plans.find(nodes)?;
             if index == loaded {
@@ -185,8 +189,10 @@ impl Layers {
         results.into_iter().collect::<Result<(), _>>()?;
         self.stored = StoredLayers { first: if all_stored { 0 } else { count }, mutual: all_stored };
         self.plan_fast()?;
+        // The operator of stored layers is a matrix, which is symmetric.
+        let closed = self.fast.is_none() && self.stored.first == self.curves.len();
         match &mut self.walls {
-            Some(walls) => walls.load(&mut self.curves, &mut self.plans),
+            Some(walls) => walls.load(&mut self.curves, &mut self.plans, closed),
             None => Ok(()),
         }
     }
@@ -219,6 +225,9 @@ impl Layers {
     /// Prepares for fast sums.
     pub(crate) fn sum_fast(&mut self) -> Result<(), LayerError> {
         let tolerance = self.sharp_tolerance();
+        if let Some(walls) = self.walls.as_mut().filter(|walls| walls.uses_images()) {
+            walls.use_modes(&mut self.curves, &mut self.plans)?;
+        }
         let Self { region, fast, images, curves, .. } = self;
         match fast {
             Some(fast) if fast.tolerance() == tolerance => fast.set(images, curves, &[])?,
@@ -275,7 +284,7 @@ impl Layers {
             fast.place(curves);
             fast.add_forces(curves, 0..stored.first, plans, flow);
             if let Some(walls) = walls {
-                walls.add_forces(curves, 0..stored.first, fast.uncorrected(), flow);
+                walls.add_forces(curves, 0..stored.first, fast.uncorrected(), plans, flow);
             }
             close.add_forces(curves, plans, stored, double, flow);
             return;
@@ -292,7 +301,7 @@ impl Layers {
         direct.add_forces(plans, stored, flow);
         multipoles.add_forces(curves, 0..stored.first, flow);
         if let Some(walls) = walls {
-            walls.add_forces(curves, 0..stored.first, Uncorrected::Row, flow);
+            walls.add_forces(curves, 0..stored.first, Uncorrected::Row, plans, flow);
         }
         close.add_forces(curves, plans, stored, double, flow);
         if double {
@@ -309,7 +318,7 @@ impl Layers {
             let from = stored.first..curves.len();
             fast.add_forces(curves, from.clone(), plans, flow);
             if let Some(walls) = walls {
-                walls.add_forces(curves, from, fast.uncorrected(), flow);
+                walls.add_forces(curves, from, fast.uncorrected(), plans, flow);
             }
             close.add_stored(curves, plans, flow);
             return;
@@ -354,7 +363,7 @@ impl Layers {
         let Self { multipoles, walls, close, curves, plans, flow, stored, .. } = self;
         multipoles.add_forces(curves, stored.first..curves.len(), flow);
         if let Some(walls) = walls {
-            walls.add_forces(curves, stored.first..curves.len(), Uncorrected::Row, flow);
+            walls.add_forces(curves, stored.first..curves.len(), Uncorrected::Row, plans, flow);
         }
         close.add_stored(curves, plans, flow);
     }
@@ -401,7 +410,7 @@ impl Layers {
             multipoles.add_dipoles(&curves[..stored.first], dipoles, accuracy, flow);
         }
         if let Some(walls) = walls {
-            walls.add_dipoles(curves, density, fine, (uncorrected, accuracy), flow);
+            walls.add_dipoles(curves, density, fine, (uncorrected, accuracy), plans, flow);
         }
         if let Some(mean) = mean {
             for flow in &mut *flow {

@@ -100,7 +100,7 @@ mod transforms;
 pub use calculus::{PeriodicCalculus, TensionPlacement};
 pub use curve::LayerCurve;
 pub use error::LayerError;
-pub use interface_flow::{Inside, Interface, InterfaceFlow, Solution, WarmStart};
+pub use interface_flow::{Inside, Interface, InterfaceFlow, ObstacleLoad, Solution, WarmStart};
 pub use rigid_motion::RigidMotion;
 pub use settings::{Settings, Symmetry};
 pub use single_layer::SingleLayer;
@@ -115,5 +115,11 @@ pub mod internal {
     /// The iterative solver of the equations.
     pub mod gmres {
         pub use crate::gmres::{Gmres, Outcome};
+    }
+
+    /// The function with the most concentrated spectrum, and polynomials for what follows from it.
+    pub mod prolate {
+        pub use crate::ewald::polynomial::powers;
+        pub use crate::ewald::prolate::Prolate;
     }
 }

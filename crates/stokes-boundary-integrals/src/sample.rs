@@ -95,6 +95,10 @@ impl Sampler {
         motion: impl Fn(usize) -> Option<RigidMotion>,
     ) -> Result<(), InputError> {
         layers.curves.iter_mut().for_each(|curve| curve.refine(&mut layers.plans[curve.plan].transforms));
+        if let Some(walls) = layers.walls.as_mut().filter(|walls| walls.uses_images()) {
+            // The flow at points is summed by modes.
+            walls.use_modes(&mut layers.curves, &mut layers.plans)?;
+        }
         layers.refine(density, |_| true);
         let (uncorrected, sharper) = self.sum_nodes(layers, density, points)?;
         let points = points.iter().map(|point| Complex64::new(point.x, point.y));

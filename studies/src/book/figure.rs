@@ -71,6 +71,9 @@ pub(super) struct Figure {
     pub(super) finding: String,
     /// Its axes in words, where those of its panels are too long.
     axes: Option<String>,
+    /// The claims of `says` that ranges test, in short, of a question of the second part.
+    #[serde(default)]
+    pub(super) asks: String,
     /// Statement of the thesis, in its words or close to them; of a question of the second part the one to be tested.
     pub(super) says: String,
     /// Of a figure of the thesis; that of a question of the second part follows from its numbers.
@@ -85,10 +88,8 @@ pub(super) struct Figure {
     pub(super) command: Option<String>,
     /// Processor time that its data took (seconds), where the clock's is not said as the machine was busy.
     pub(super) processor: Option<f64>,
-    /// A picture under docs, and pages with more.
+    /// A picture under docs.
     pub(super) picture: Option<String>,
-    #[serde(default)]
-    pub(super) see: Vec<String>,
     /// Names of expressions.
     #[serde(default)]
     define: Definitions,

@@ -5,13 +5,12 @@
 //! number of one of its groups. Behind them, `| %` stands for percent, `| ±` for the number with its error, and
 //! `| error` for the error alone; `| of`, `| pairs`, `| p` and `| bounds` for what stands next to the number. There are
 //! also `{{failed 4.19}}`, `{{missed E.5}}` for the ranges that its numbers are outside of, `{{verdicts}}`,
-//! `{{questions}}`, `{{counts}}` and `{{sections}}` for what the machinery knows of all figures. The reasons of a
-//! figure may have marks too. Everything else that is known of the checks is in `docs/book/checks`.
+//! `{{questions}}`, `{{counts}}`, `{{sections}}` and `{{costs}}` for what the machinery knows of all figures. The
+//! reasons of a figure may have marks too. Everything else that is known of the checks is in `docs/book/checks`.
 
 mod filled;
 mod sheets;
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,8 +22,10 @@ use crate::tables;
 
 /// Widest line of prose.
 const WIDEST: usize = 120;
-/// Largest text of a chapter of the thesis (bytes), and most words of a cell of a table.
+/// Largest text of a chapter of the thesis and of the chapter on the environment (bytes).
 const LARGEST: usize = 8192;
+const LARGEST_ENVIRONMENT: usize = 15 * 1024;
+/// Most words of a cell of a table.
 pub(super) const MOST_WORDS: usize = 12;
 
 pub(super) fn folder() -> PathBuf {
@@ -124,17 +125,22 @@ impl Entry {
 
     /// The picture and its caption, with the axes, across first, and the meaning of colours and panels.
     fn shown(&self) -> String {
-        let mut text = format!("<a id=\"{}\"></a>\n", self.anchor());
-        for picture in self.pictures() {
-            let _ = write!(text, "![{}]({picture})\n\n", self.name());
-        }
+        let (first, rest) = self.kind().split_at(1);
+        let verdict = first.to_uppercase() + rest;
+        let caption = format!("**{}.** {}.{} *{verdict}.*", self.name(), self.figure.title, self.explained());
+        format!("<a id=\"{}\"></a>\n", self.anchor()) + &self.images() + &wrapped(&caption)
+    }
+
+    fn images(&self) -> String {
+        self.pictures().iter().fold(String::new(), |text, picture| text + &format!("![{}]({picture})\n\n", self.name()))
+    }
+
+    /// What axes, colours and panels of its picture mean.
+    fn explained(&self) -> String {
         let axes = self.figure.axes().replace(" (across)", "").replace(" (up)", "");
         let axes = if axes.is_empty() { axes } else { format!(" Axes: {axes}.") };
         let legend = &self.figure.legend;
-        let legend = if legend.is_empty() { String::new() } else { format!(" {legend}") };
-        let (first, rest) = self.kind().split_at(1);
-        let verdict = first.to_uppercase() + rest;
-        text + &wrapped(&format!("**{}.** {}.{axes}{legend} *{verdict}.*", self.name(), self.figure.title))
+        if legend.is_empty() { axes } else { format!("{axes} {legend}") }
     }
 }
 
@@ -185,14 +191,17 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
         let mark = format!("{{{{figure {}}}}}", entry.number);
         let shown = entry.is_question() || texts.iter().any(|(_, text)| text.contains(&mark));
         ensure!(shown, "figure {} is in no text of {}/chapters", entry.number, directory().display());
-        let told = entry.is_question() || !entry.figure.legend.is_empty();
-        ensure!(told, "figure {} has no `legend`, which says what colours and panels mean", entry.number);
+        let explained = !entry.figure.legend.is_empty();
+        ensure!(explained, "figure {} has no `legend`, which says what colours and panels mean", entry.number);
+        let asked = !entry.is_question() || !entry.figure.asks.is_empty();
+        ensure!(asked, "figure {} has no `asks`, the claims of its statement that ranges test", entry.number);
     }
     let mut pages = Vec::new();
     for (name, text) in &texts {
         let page = filled::page(text, &entries).with_context(|| name.clone())?;
-        let of_thesis = name.starts_with("chapter-") && !name.contains(ENVIRONMENT);
-        ensure!(!of_thesis || page.len() <= LARGEST, "{name} has {} bytes, more than {LARGEST}", page.len());
+        let most = if name.contains(ENVIRONMENT) { LARGEST_ENVIRONMENT } else { LARGEST };
+        let fits = !name.starts_with("chapter-") || page.len() <= most;
+        ensure!(fits, "{name} has {} bytes, more than {most}", page.len());
         pages.push((name.clone(), page));
     }
     pages.extend(sheets::all(&entries)?);
@@ -209,39 +218,15 @@ pub(super) fn filled_with_all(text: &str) -> Result<String> {
 /// A question of the second part with its answer.
 fn section(entry: &Entry, entries: &[Entry]) -> Result<String> {
     let figure = &entry.figure;
-    let mut text = format!("## Figure {}\n\n**{}.**\n\n", entry.number, figure.title);
-    text += &wrapped(&format!("**Statement:** {}", figure.says));
+    let mut text = format!("<a id=\"{}\"></a>\n\n## {} {}\n\n", entry.anchor(), entry.number, figure.title);
+    text += &wrapped(&format!("**Statement:** {}", figure.asks));
     text += "\n";
     let [missed, ranges] = entry.missed();
     let ranges = if missed == 0 { String::new() } else { format!(" ({missed} of {ranges} ranges missed)") };
-    text += &wrapped(&format!("**Verdict: {}{ranges}.** {}", entry.verdict, entry.why(entries)?));
-    if let Some(open) = &figure.open {
-        text += "\n";
-        text += &wrapped(&format!("**Open:** {open}"));
-    }
-    for picture in entry.pictures() {
-        let _ = write!(text, "\n![{}]({picture})\n", entry.name());
-    }
-    let axes = figure.axes();
-    if !axes.is_empty() {
-        text += "\n";
-        text += &wrapped(&format!("*Axes: {axes}.*"));
-    }
-    let own = format!("cargo run --release -p studies -- figure {}", entry.number);
-    let mut last = format!("Reproduce: `{}`", figure.command.as_ref().unwrap_or(&own));
-    if let Some(seconds) = figure.processor.filter(|_| entry.kept.is_some()) {
-        let _ = write!(last, " ({seconds:.0} s of processor time)");
-    }
-    if let Some(kept) = entry.kept.as_ref().filter(|kept| kept.failed() > 0) {
-        let (failed, runs) = (kept.failed(), kept.runs);
-        let _ = write!(last, "; [{failed} of {runs} runs failed](checks/failures.csv)");
-    }
-    for page in &figure.see {
-        let name = page.rsplit('/').next().unwrap_or(page);
-        let _ = write!(last, "; [{name}](../{page})");
-    }
-    text += "\n";
-    Ok(text + &wrapped(&(last + ".")))
+    let open = figure.open.as_ref().map_or_else(String::new, |open| format!(" **Open:** {open}"));
+    let verdict = format!("**Verdict: {}{ranges}.** {}{open}", entry.verdict, entry.why(entries)?);
+    text += &(wrapped(&verdict) + "\n" + &entry.images());
+    Ok(text + &wrapped(&format!("**{}.**{}", entry.name(), entry.explained())))
 }
 
 /// A paragraph in lines that are not too long.

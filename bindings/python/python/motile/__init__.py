@@ -20,9 +20,9 @@ from ._error import Error
 from ._fit import Combination, FitResult, Profile, Samples, fit
 from ._fit_model import Free
 from ._measured import Measured, MeasuredConcentration, MeasuredModes, MeasuredOutline, MeasuredRun
-from ._motile import Setup, SteadyState, steady
-from ._parts import box, channel, droplet, grid, integral, layers, plane, space, tube
-from ._scene import Droplet, Scene, Track
+from ._motile import Setup, SteadyState, read_outline, steady
+from ._parts import box, channel, droplet, grid, harmonics, integral, layers, plane, space, tube
+from ._scene import Droplet, Scene, SpaceDroplet, Track
 from ._steady import Branch, branch
 from ._sweep import Sweep, SweepRun, sweep
 
@@ -42,6 +42,7 @@ __all__ = [
     "Samples",
     "Scene",
     "Setup",
+    "SpaceDroplet",
     "SteadyState",
     "Sweep",
     "SweepRun",
@@ -52,9 +53,11 @@ __all__ = [
     "droplet",
     "fit",
     "grid",
+    "harmonics",
     "integral",
     "layers",
     "plane",
+    "read_outline",
     "space",
     "steady",
     "sweep",

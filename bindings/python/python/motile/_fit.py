@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import html
-import importlib
 import math
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,6 +19,9 @@ from ._error import Error
 from ._fit_model import COVERED, Free, Measurement, Model
 from ._least_squares import Minimum, least_squares
 from ._measured import Measured, MeasuredConcentration, MeasuredModes, MeasuredOutline, MeasuredRun
+from ._optional import needed, write_parquet
+from ._progress import Bar
+from ._scene import FilePath
 
 if TYPE_CHECKING:
     import pandas
@@ -104,9 +106,13 @@ class Samples(Mapping[str, Array]):
 
     def to_pandas(self) -> pandas.DataFrame:
         """Table of the samples, a column for each parameter."""
-        import pandas
+        frame: pandas.DataFrame = needed("pandas", "a DataFrame").DataFrame(self.as_array, columns=list(self.keys_of))
+        frame.attrs["motile"] = _motile.VERSION
+        return frame
 
-        return pandas.DataFrame(self.as_array, columns=list(self.keys_of))
+    def to_parquet(self, path: FilePath) -> None:
+        """Writes the table of `to_pandas` as a parquet file."""
+        write_parquet(self.to_pandas(), path)
 
 
 @dataclass(frozen=True)
@@ -199,17 +205,16 @@ class FitResult:
             (open_below, open_above),
         )
 
-    def sample(self, n: int = 2000, *, walkers: int | None = None, burn_in: int = 100, seed: int = 0) -> Samples:
+    def sample(
+        self, n: int = 2000, *, walkers: int | None = None, burn_in: int = 100, seed: int = 0, progress: bool = False
+    ) -> Samples:
         """At least `n` samples of the probability of the parameters given the data, by the package emcee
         (Foreman-Mackey et al. 2013), with constant probability within bounds where there is no prior.
 
         Each sample needs the steady state of all conditions. The first `burn_in` steps of each walker are left out.
+        With `progress`, a bar counts the steps.
         """
-        try:
-            emcee: Any = importlib.import_module("emcee")
-        except ImportError as error:
-            remedy = "Install it: pip install emcee (or the package with its extra `fit`)"
-            raise Error(f"samples need the package emcee, which is not installed. {remedy}", remedy=remedy) from error
+        emcee = needed("emcee", "drawing samples")
         model, count = self._model, len(self.keys)
         walkers = max(2 * count + 2, 8) if walkers is None else walkers
         if n < 1 or burn_in < 0 or walkers < 2 * count:
@@ -232,7 +237,13 @@ class FitResult:
         start = np.clip(np.where(start > model.upper, 2 * model.upper - start, start), model.lower, model.upper)
         sampler = emcee.EnsembleSampler(walkers, count, logarithm)
         sampler.random_state = np.random.RandomState(seed).get_state()
-        sampler.run_mcmc(start, burn_in + -(-n // walkers))
+        steps = burn_in + -(-n // walkers)
+        bar = Bar(0, steps, "step") if progress else None
+        for done, _ in enumerate(sampler.sample(start, iterations=steps), 1):
+            if bar:
+                bar(done)
+        if bar:
+            bar.close(steps)
         return Samples(
             self.keys, sampler.get_chain(discard=burn_in, flat=True), float(np.mean(sampler.acceptance_fraction))
         )

@@ -11,7 +11,7 @@ from ._scene import Scene as _Scene
 
 _Array = npt.NDArray[np.float64]
 
-__all__ = ["VERSION", "Scene", "Setup", "SteadyState", "branch", "steady"]
+__all__ = ["VERSION", "Scene", "Setup", "SteadyState", "branch", "read_outline", "steady"]
 
 VERSION: str
 """Version of motile and, after a plus sign, of the numbers that it computes."""
@@ -46,6 +46,7 @@ class Setup:
     def __ge__(self, other: Any, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __reduce__(self) -> Any: ...
+    def _repr_html_(self) -> str: ...
 
 @final
 class Scene:
@@ -71,6 +72,10 @@ class Scene:
     def steps(self) -> int: ...
     @property
     def droplet_count(self) -> int: ...
+    @property
+    def lacks_symmetry(self) -> bool: ...
+    def mesh(self, droplet: int) -> tuple[_Array, npt.NDArray[np.int64], _Array, _Array, _Array]: ...
+    def velocities_in_space(self, points: _Array, error: float) -> _Array: ...
     @property
     def warnings(self) -> list[str]: ...
     @property
@@ -119,6 +124,24 @@ class SteadyState:
     def sensitivities(
         self, *, parameters: list[str] | None = None, logarithmic: bool = False, growth: bool = False
     ) -> dict[str, dict[str, float]]: ...
+    def __reduce__(self) -> Any: ...
+    def _repr_html_(self) -> str: ...
+
+def read_outline(
+    path: str | PathLike[str],
+    *,
+    scale: float = 1.0,
+    flip: bool | None = None,
+    smooth: float | None = None,
+    name: str | None = None,
+    index: int | None = None,
+) -> _Array:
+    """Points (length) of the outline in a file, counter-clockwise, an array of shape (n, 2).
+
+    Files are tables (CSV), SVG, GeoJSON and regions of interest of ImageJ. `scale` is the length of the unit of the
+    file, such as the side of a pixel. `flip` is true if y runs downwards in the file; by default it is true for SVG and
+    ImageJ. `smooth` is the distance (length) by which a smooth curve may pass the points, for an outline that was
+    traced along pixels. `name` or `index` chooses one of several outlines."""
 
 def steady(setup: Setup, *, near: SteadyState | None = None) -> SteadyState:
     """Steady state of a setup with one droplet. With `near`, the state of a similar setup, the search starts from that

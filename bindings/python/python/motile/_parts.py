@@ -28,7 +28,7 @@ def plane() -> str:
 
 
 def space() -> str:
-    """Unbounded fluid in three dimensions, for droplets of revolution."""
+    """Unbounded fluid in three dimensions. Droplets with a `position` or `heading`, or off the x axis, need no symmetry."""
     return "space"
 
 
@@ -40,6 +40,11 @@ def tube(radius: float, **more: Any) -> Part:
 def integral(**more: Any) -> Part:
     """Boundary integrals: `nodes` of the shape and `elements` of the interface (concentration) of each droplet."""
     return {"integral": more}
+
+
+def harmonics(degree: int = 16) -> Part:
+    """Spherical harmonics of a degree, for droplets in three dimensions without symmetry."""
+    return {"harmonics": {"degree": degree}}
 
 
 def layers(**more: Any) -> Part:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
+import html
 import os
-import sys
-import time as clock
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
@@ -13,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _motile
+from . import _html, _motile
 from ._error import Error
+from ._optional import needed, write_parquet
+from ._progress import Bar
 
 if TYPE_CHECKING:
     import pandas
@@ -31,12 +31,14 @@ class Track(Mapping[str, Array]):
 
     With one droplet arrays have one dimension, with more droplets two, times by droplets; `track.time` always has one.
     Centroids `x`, `y` are not wrapped: a droplet that leaves a periodic region on one side goes on beyond it. Values
-    that do not exist are not a number. `as_array` has everything, times by droplets by `names`.
+    that do not exist are not a number. `as_array` has everything, times by droplets by `names`. `origin` says where the
+    numbers come from: the version of motile and the fingerprint of the setup.
     """
 
-    def __init__(self, names: list[str], values: Array) -> None:
+    def __init__(self, names: list[str], values: Array, origin: Mapping[str, str] | None = None) -> None:
         self.names = names
         self.as_array = values
+        self.origin = dict(origin or {})
 
     @property
     def time(self) -> Array:
@@ -63,24 +65,41 @@ class Track(Mapping[str, Array]):
 
     def to_pandas(self) -> pandas.DataFrame:
         """Table as a DataFrame; with more than one droplet its index is (time, droplet)."""
-        import pandas
-
         _, droplets, names = self.as_array.shape
-        frame = pandas.DataFrame(self.as_array.reshape(-1, names), columns=self.names)
+        rows = self.as_array.reshape(-1, names)
+        frame: pandas.DataFrame = needed("pandas", "a DataFrame").DataFrame(rows, columns=self.names)
+        frame.attrs.update(self.origin)
         if droplets == 1:
             return frame.set_index("time")
         frame.insert(1, "droplet", np.tile(np.arange(droplets), len(self.as_array)))
         return frame.set_index(["time", "droplet"])
 
+    def to_parquet(self, path: FilePath) -> None:
+        """Writes the table of `to_pandas` as a parquet file, with its origin."""
+        write_parquet(self.to_pandas(), path)
+
     def to_xarray(self) -> xarray.Dataset:
         """Table as a Dataset with the dimensions time and droplet."""
-        import xarray
-
         places = {"time": self.time, "droplet": np.arange(self.as_array.shape[1])}
         columns = {
             name: (("time", "droplet"), self.as_array[:, :, k]) for k, name in enumerate(self.names) if name != "time"
         }
-        return xarray.Dataset(columns, places)
+        dataset: xarray.Dataset = needed("xarray", "a Dataset").Dataset(columns, places, attrs=self.origin)
+        return dataset
+
+    def _repr_html_(self) -> str:
+        """First and last record of the first droplet, for notebooks."""
+        times, droplets, _ = self.as_array.shape
+        rows: dict[str, tuple[float, float]] = {}
+        if times and droplets:
+            first, last = self.as_array[0, 0], self.as_array[-1, 0]
+            rows = {name: (float(first[k]), float(last[k])) for k, name in enumerate(self.names)}
+        return f"<div>{html.escape(repr(self)[1:-1])}{_html.table(rows, ('column', 'first', 'last'))}</div>"
+
+
+def origin_of(setup: _motile.Setup) -> dict[str, str]:
+    """Where the numbers of a setup come from."""
+    return {"motile": _motile.VERSION, "fingerprint": setup.fingerprint}
 
 
 def _numbers(given: npt.ArrayLike, key: str) -> Array:
@@ -129,21 +148,23 @@ class Droplet:
 
         Concentrations c are numbers per length, tensions gamma forces. A table is joined by monotone cubic polynomials
         and goes on straight beyond its ends. A function is tabulated at so many `points` from 0 to `up_to`, by default
-        8 times the largest concentration now (if there are no particles on the interface yet, give it), and joined by cubic polynomials: where it is smooth the error falls with
-        the fourth power of their distance.
+        8 times the largest concentration now (if there are no particles on the interface yet, give it), and joined by
+        cubic polynomials: where it is smooth the error falls with the fourth power of their distance.
         """
         if smooth := callable(law):
             if up_to is None:
                 largest = float(np.max(self.concentration, initial=0.0))
                 if self.concentration.size and not largest > 0:
                     remedy = "Set up_to, the largest concentration of the table"
-                    raise Error(f"there are no particles on the interface yet, so the table needs a range. {remedy}", key="up_to", remedy=remedy)
+                    what = "there are no particles on the interface yet, so the table needs a range"
+                    raise Error(f"{what}. {remedy}", key="up_to", remedy=remedy)
                 up_to = 8.0 * largest or 1.0
             c = np.linspace(0.0, up_to, points)
             gamma = _numbers(law(c), "tension")
             if gamma.shape not in ((), c.shape):
                 remedy = "Return one tension for each concentration"
-                raise Error(f"the law returns an array of shape {gamma.shape} for concentrations of shape {c.shape}. {remedy}", key="tension", remedy=remedy)
+                what = f"the law returns an array of shape {gamma.shape} for concentrations of shape {c.shape}"
+                raise Error(f"{what}. {remedy}", key="tension", remedy=remedy)
             gamma = np.broadcast_to(gamma, c.shape)
         else:
             parts = [_numbers(part, "tension").ravel() for part in law]
@@ -155,6 +176,58 @@ class Droplet:
 
     def __repr__(self) -> str:
         return f"<droplet {self.index}: {len(self.positions)} markers>"
+
+
+class SpaceDroplet:
+    """One of the droplets of a scene in three dimensions without symmetry, as it is when asked. Arrays are copies."""
+
+    def __init__(self, scene: _motile.Scene, index: int) -> None:
+        self._scene = scene
+        self.index = index
+
+    @property
+    def points(self) -> Array:
+        """Points of the surface (length), of shape (n, 3)."""
+        return self._scene.mesh(self.index)[0]
+
+    @property
+    def triangles(self) -> npt.NDArray[np.int64]:
+        """Numbers of the corners of the triangles between the points, of shape (m, 3), counter-clockwise from outside."""
+        return self._scene.mesh(self.index)[1]
+
+    @property
+    def concentration(self) -> Array:
+        """Concentrations at the points (particles per area); zero without particles."""
+        return self._scene.mesh(self.index)[2]
+
+    @property
+    def tension(self) -> Array:
+        """Tensions at the points (force per length)."""
+        return self._scene.mesh(self.index)[3]
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the fluid at the points (length per time), of shape (n, 3)."""
+        return self._scene.mesh(self.index)[4]
+
+    @property
+    def position(self) -> Array:
+        """Centroid (length), of shape (3,)."""
+        seen = self.observe()
+        return np.array([seen[name] for name in ("x", "y", "z")], dtype=float)
+
+    @property
+    def heading(self) -> Array:
+        """Unit vector along the velocity, of shape (3,); zero at rest."""
+        seen = self.observe()
+        return np.array([seen[f"heading_{name}"] for name in "xyz"], dtype=float)
+
+    def observe(self) -> dict[str, float | None]:
+        """All observables of the droplet by name; None where there is no value."""
+        return self._scene.observe(self.index)
+
+    def __repr__(self) -> str:
+        return f"<droplet {self.index} in three dimensions: {len(self.points)} points>"
 
 
 class Scene:
@@ -184,8 +257,27 @@ class Scene:
 
     @property
     def droplets(self) -> list[Droplet]:
-        """Droplets in the order of the setup."""
-        return [Droplet(self._scene, k) for k in range(self._scene.droplet_count)]
+        """Droplets in the order of the setup; none in three dimensions without symmetry."""
+        count = 0 if self._scene.lacks_symmetry else self._scene.droplet_count
+        return [Droplet(self._scene, k) for k in range(count)]
+
+    @property
+    def space_droplets(self) -> list[SpaceDroplet]:
+        """Droplets in three dimensions without symmetry, in the order of the setup; none in other scenes."""
+        count = self._scene.droplet_count if self._scene.lacks_symmetry else 0
+        return [SpaceDroplet(self._scene, k) for k in range(count)]
+
+    def velocity_at(self, points: npt.ArrayLike, error: float = 1e-6) -> Array:
+        """Velocities of the fluid (length per time) in three dimensions without symmetry, at points of shape (..., 3).
+
+        Next to a surface, a slower rule keeps the relative error below about `error`.
+        """
+        places = _numbers(points, "points")
+        if places.ndim == 0 or places.shape[-1] != 3:
+            remedy = "Use an array whose last dimension is 3"
+            raise Error(f"points have shape {places.shape}. {remedy}", key="points", remedy=remedy)
+        found = self._scene.velocities_in_space(np.ascontiguousarray(places.reshape(-1, 3)), error)
+        return found.reshape(places.shape)
 
     @property
     def bodies(self) -> list[tuple[str, Array]]:
@@ -216,7 +308,8 @@ class Scene:
         """Forces of the fluid along a channel over one period; None without straight walls.
 
         `pressure_drop` (stress), its part that bodies cause at a given flux, `extra_pressure_drop`, and the forces on
-        the walls along x, `force_lower` and `force_upper`, and on all bodies, `force_bodies_x` and `force_bodies_y`.
+        the walls along x, `force_lower` and `force_upper`, on all bodies, `force_bodies_x` and `force_bodies_y`, on all
+        obstacles, `force_obstacles_x` and `force_obstacles_y`, and on plates that the fluid rubs on, `force_plates`.
         """
         return self._scene.channel_forces()
 
@@ -227,7 +320,7 @@ class Scene:
     @property
     def track(self) -> Track:
         """Everything that was recorded since the scene was built."""
-        return Track(self._scene.names, self._scene.records())
+        return Track(self._scene.names, self._scene.records(), self._origin())
 
     def run(
         self,
@@ -249,7 +342,7 @@ class Scene:
         `checkpoint` is saved after each call of the callback, except at the start, and at the end.
         """
         first, start, known = len(self._scene.records()), self.time, len(self.warnings)
-        bar = _Bar(self.time, until) if progress else None
+        bar = Bar(self.time, until) if progress else None
         try:
             for stop in self._stops(until, every if callback or checkpoint else None):
                 self._scene.advance(stop, every, dict(step) if step else None, bar)
@@ -262,7 +355,10 @@ class Scene:
                 bar.close(self.time)
         for text in self.warnings[known:]:
             warnings.warn(text, stacklevel=2)
-        return Track(self._scene.names, self._without_repeats(first))
+        return Track(self._scene.names, self._without_repeats(first), self._origin())
+
+    def _origin(self) -> dict[str, str]:
+        return origin_of(self.setup)
 
     def _stops(self, until: float, every: float | None) -> Iterator[float]:
         if every is not None:
@@ -302,6 +398,9 @@ class Scene:
         return gradient
 
     def _sample(self, points: npt.ArrayLike) -> tuple[Array, Array, Array]:
+        if self._scene.lacks_symmetry:
+            remedy = "Use velocity_at with points of shape (..., 3)"
+            raise Error(f"points of a plane have no flow in three dimensions. {remedy}", key="points", remedy=remedy)
         places = _numbers(points, "points")
         if places.ndim == 0 or places.shape[-1] != 2:
             remedy = "Use an array whose last dimension is 2"
@@ -366,20 +465,19 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """Picture and key numbers, for notebooks."""
-        rows = [("time", f"{self.time:g}"), ("steps", f"{self.steps}"), ("warnings", f"{len(self.warnings)}")]
-        if self.droplets:
-            seen = self.droplets[0].observe()
-            names = ("speed", "aspect_ratio_moments", "stresslet_xx")
-            rows += [(name, f"{value:.5g}") for name in names if (value := seen.get(name)) is not None]
-        cells = "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows)
-        return f"<div>{self._scene.svg()}<table>{cells}</table></div>"
+        rows: dict[str, Any] = {"time": self.time, "steps": self.steps, "warnings": len(self.warnings)}
+        if self.droplets or self.space_droplets:
+            seen = (self.droplets or self.space_droplets)[0].observe()
+            names = ("speed", "aspect_ratio_moments", "stresslet_xx", "deformation", "stresslet")
+            rows.update({name: value for name in names if (value := seen.get(name)) is not None})
+        return f"<div>{self._scene.svg()}{_html.table(rows)}</div>"
 
     def __reduce__(self) -> tuple[object, ...]:
         return _unpickled, (self.setup, *self._scene.packed())
 
     def write_paraview(self, folder: FilePath, spacing: float | None = None) -> None:
-        """Writes the flow on a raster of that spacing (length; by default a tenth of the radius of the first droplet) and
-        all bodies as files for ParaView."""
+        """Writes the flow on a raster of that spacing (length; by default a tenth of the radius of the first droplet)
+        and all bodies as files for ParaView."""
         self._scene.write_paraview(os.fspath(folder), spacing)
 
     def __copy__(self) -> Scene:
@@ -408,31 +506,3 @@ def _unpickled(setup: _motile.Setup, state: bytes, records: Array) -> Scene:
     scene: Scene = setup.build()
     scene._scene.unpack(state, records)
     return scene
-
-
-class _Bar:
-    """Progress bar on standard error, in a notebook a line of output that is replaced."""
-
-    def __init__(self, start: float, until: float) -> None:
-        self._start, self._until, self._began = start, until, clock.monotonic()
-        self._handle: Any = None
-        if "ipykernel" in sys.modules:
-            # IPython's functions have no types, and need not be installed.
-            display: Any = importlib.import_module("IPython.display").display
-            self._handle = display("", display_id=True)
-
-    def __call__(self, time: float) -> None:
-        span = self._until - self._start
-        part = min(max((time - self._start) / span, 0.0), 1.0) if span > 0 else 1.0
-        seconds = clock.monotonic() - self._began
-        left = seconds * (1 - part) / part if part > 0 else float("inf")
-        text = f"{'█' * round(30 * part):<30} t = {time:.4g} of {self._until:g}, {left:.0f} s left"
-        if self._handle is not None:
-            self._handle.update({"text/plain": text}, raw=True)
-        else:
-            print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
-
-    def close(self, time: float) -> None:
-        self(time)
-        if self._handle is None:
-            print(file=sys.stderr)

@@ -130,6 +130,7 @@ impl Body for ActiveDroplet {
             return self.interface.solve_implicit(factor, state);
         };
         let (positions, numbers) = state.split_at_mut(2 * self.interface.marker_count());
+        self.interface.solve_bending(positions, factor);
         if let Some(base) = self.felt_rates() {
             let (Some(pool), Some(mut felt)) = (&self.pool, self.interface.felt.take()) else { return };
             if let Some(Diffusion { transport, cells, diffusivities }) = self.interface.diffusion_at(positions) {

@@ -17,13 +17,21 @@ pub struct Fields {
     pub binding: Option<Field>,
     /// Field that is added to the rate of unbinding k_off (1/time).
     pub unbinding: Option<Field>,
+    /// Field that is added to the friction xi with a substrate (force times time per length squared).
+    pub friction: Option<Field>,
 }
 
 impl Fields {
     /// Returns the fields with names for messages.
     pub(crate) fn named(&self) -> impl Iterator<Item = (&'static str, &Field)> {
-        let Self { tension, activity, binding, unbinding } = self;
-        let names = [("tension", tension), ("activity", activity), ("binding", binding), ("unbinding", unbinding)];
+        let Self { tension, activity, binding, unbinding, friction } = self;
+        let names = [
+            ("tension", tension),
+            ("activity", activity),
+            ("binding", binding),
+            ("unbinding", unbinding),
+            ("friction", friction),
+        ];
         names.into_iter().filter_map(|(name, field)| Some((name, field.as_ref()?)))
     }
 

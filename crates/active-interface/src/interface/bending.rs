@@ -2,6 +2,10 @@
 
 use motile_base::{CurveForces, InputError, Vec2};
 
+mod stabiliser;
+
+pub(super) use stabiliser::{BendingStabiliser, Stiffness};
+
 /// Bending of a fluid interface, which resists the departure of its curvature kappa (1/length; positive for a circle)
 /// from a reference curvature.
 #[derive(Debug, Clone)]
@@ -11,11 +15,13 @@ pub(crate) struct Bending {
     /// Reference curvature kappa0 (1/length).
     pub(crate) reference: f64,
     forces: CurveForces,
+    pub(super) stabiliser: BendingStabiliser,
 }
 
 impl Bending {
     pub(super) fn new(modulus: f64, reference: f64, count: usize) -> Result<Self, InputError> {
-        Ok(Self { modulus, reference, forces: CurveForces::new(count)? })
+        let stabiliser = BendingStabiliser::new(count)?;
+        Ok(Self { modulus, reference, forces: CurveForces::new(count)?, stabiliser })
     }
 
     /// Returns the energy `B/2 INT (kappa - kappa0)^2 ds` (force times length) of the curve through the markers.
@@ -28,7 +34,7 @@ impl Bending {
 
     /// Adds minus the gradient of the energy by the markers to the forces on the fluid (force).
     pub(super) fn add_forces(&mut self, markers: &[Vec2], advance: f64, forces: &mut [Vec2]) -> Result<(), InputError> {
-        let Self { modulus, reference, forces: curve } = self;
+        let Self { modulus, reference, forces: curve, .. } = self;
         curve.move_to_over(markers, Vec2::new(advance, 0.0))?;
         let pull = |_, [speed, cross]: [f64; 2]| {
             let curvature = cross / speed.powi(3);
@@ -41,6 +47,19 @@ impl Bending {
     /// Returns the tension (force) that makes a flat interface relax as fast as the bending does at a wave number
     /// (1/length).
     pub(super) fn tension(&self, wave: f64) -> f64 {
-        self.modulus * (wave * wave + 0.5 * self.reference * self.reference)
+        tension_of(self.modulus, self.reference, wave)
     }
+
+    /// Makes the waves of the next step implicit, or none of them.
+    pub(super) fn prepare_step(&mut self, stiffness: Option<Stiffness>) {
+        let Self { modulus, reference, stabiliser, .. } = self;
+        match stiffness {
+            Some(of) => stabiliser.prepare(|wave| tension_of(*modulus, *reference, wave), of),
+            None => stabiliser.rest(),
+        }
+    }
+}
+
+fn tension_of(modulus: f64, reference: f64, wave: f64) -> f64 {
+    modulus * (wave * wave + 0.5 * reference * reference)
 }

@@ -144,7 +144,7 @@ impl Body for ActiveInterface {
     }
 
     fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
-        self.prepare_step(view, self.mean_viscosity(view), step.stabilised)?;
+        self.prepare_step(view, self.mean_viscosity(view), step)?;
         if let Some(noise) = &mut self.noise {
             let (cells, c) = (self.state.shape.geometry.cells(), &self.derived.concentrations);
             noise.draw(step.dt, c, cells, self.law.diffusion);
@@ -154,6 +154,7 @@ impl Body for ActiveInterface {
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
         let (positions, numbers) = state.split_at(2 * self.marker_count());
+        self.add_bending(positions, factor, out);
         let out = &mut out[positions.len()..];
         if let Some(diffusion) = self.diffusion_at(positions) {
             diffusion.transport.add_diffusion(diffusion.cells, diffusion.diffusivities, numbers, factor, out);
@@ -162,6 +163,7 @@ impl Body for ActiveInterface {
 
     fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
         let (positions, numbers) = state.split_at_mut(2 * self.marker_count());
+        self.solve_bending(positions, factor);
         if let Some(diffusion) = self.diffusion_at(positions) {
             diffusion.transport.solve_diffusion(diffusion.cells, diffusion.diffusivities, factor, numbers);
         }
@@ -218,6 +220,7 @@ impl Body for ActiveInterface {
             ("the viscosity of the cortex per concentration", per_concentration),
             ("the shear viscosity of the cortex", shear_viscosity),
             ("the friction with the substrate", self.law.friction),
+            ("the viscosity of the film at walls", self.law.wall_film),
             ("the constraint on stretching", f64::from(inextensible)),
         ] {
             if value != 0.0 {
@@ -306,6 +309,22 @@ impl Body for ActiveInterface {
 }
 
 impl ActiveInterface {
+    /// Adds `factor` times the implicit decay by bending to the positions `out`.
+    fn add_bending(&mut self, positions: &[f64], factor: f64, out: &mut [f64]) {
+        let advance = self.advance();
+        if let Some(bending) = &mut self.law.bending {
+            bending.stabiliser.add(positions, advance, factor, &mut out[..positions.len()]);
+        }
+    }
+
+    /// Solves for positions whose short waves decay by bending over the time `factor`.
+    pub(crate) fn solve_bending(&mut self, positions: &mut [f64], factor: f64) {
+        let advance = self.advance();
+        if let Some(bending) = &mut self.law.bending {
+            bending.stabiliser.solve(positions, advance, factor);
+        }
+    }
+
     /// Returns the entries of the state for a marker.
     pub(crate) fn per_marker(&self) -> usize {
         if self.carries() { 3 } else { 2 }
@@ -313,8 +332,20 @@ impl ActiveInterface {
 
     /// Refuses a cortex and friction where they have no meaning.
     fn check_resistance(&self, view: &FluidView) -> Result<(), InterfaceError> {
-        if self.state.shape.axisymmetric && self.law.friction > 0.0 {
+        if self.state.shape.axisymmetric && self.has_friction() {
             return Err(InterfaceError::resisting_revolution());
+        }
+        if self.law.wall_film > 0.0 && view.domain.walls.is_none() {
+            return Err(InterfaceError::no_walls_to_rub());
+        }
+        if let Some((field, time)) =
+            self.felt.as_ref().and_then(|felt| Some((felt.fields.friction.as_ref()?, felt.time)))
+        {
+            let friction = |place: &Vec2| (self.law.friction + field.value(*place, time), *place);
+            let bad = self.markers().iter().map(friction).find(|(value, _)| !(*value >= 0.0 && value.is_finite()));
+            if let Some((value, place)) = bad {
+                return Err(InterfaceError::negative_friction(value, place));
+            }
         }
         if self.law.cortex.inextensible && grid_spacing(view).is_some() {
             return Err(InterfaceError::unresolved_membrane());
@@ -366,15 +397,22 @@ impl ActiveInterface {
         }
         let Geometry { tangents, weights, .. } = self.geometry();
         if self.advance() == 0.0 {
-            if !self.keeps_smooth_area() {
-                return raw_area(self.markers());
-            }
-            let first = self.markers()[0];
-            let sectors = self.markers().iter().zip(tangents).zip(weights);
-            return 0.5 * sectors.map(|((x, tau), weight)| weight * (*x - first).dot(outward(*tau))).sum::<f64>();
+            return if self.keeps_smooth_area() { self.smooth_area() } else { raw_area(self.markers()) };
         }
         let columns = self.markers().iter().zip(tangents).zip(weights);
         -columns.map(|((marker, tangent), weight)| marker.y * tangent.x * weight).sum::<f64>()
+    }
+
+    /// Returns the area inside a closed curve through the markers (length squared): of the smooth curve if there is
+    /// one, else of the polygon.
+    pub(crate) fn smooth_area(&self) -> f64 {
+        if self.scheme.spectral.is_none() {
+            return raw_area(self.markers());
+        }
+        let Geometry { tangents, weights, .. } = self.geometry();
+        let first = self.markers()[0];
+        let sectors = self.markers().iter().zip(tangents).zip(weights);
+        0.5 * sectors.map(|((x, tau), weight)| weight * (*x - first).dot(outward(*tau))).sum::<f64>()
     }
 
     /// Returns true for a closed smooth curve whose area is restored after each step. It is the area of the polygon

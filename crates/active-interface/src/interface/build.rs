@@ -118,6 +118,7 @@ impl ActiveInterface {
             bending: None,
             cortex: Cortex::default(),
             friction: 0.0,
+            wall_film: 0.0,
             body_force: None,
         };
         let account = Account {
@@ -265,7 +266,7 @@ impl ActiveInterface {
         let concentrations = self.derived.concentrations.clone();
         self.scheme.spectral = Some(SpectralCurve::new(count)?);
         (self.state.shape.axisymmetric, self.scheme.other.axisymmetric) = (true, true);
-        self.scheme.resistance = Resistance::of(&self.law, self.markers().len(), true)?;
+        self.scheme.resistance = Resistance::of(&self.law, self.has_friction(), self.markers().len(), true)?;
         self.law.keeps_area = true;
         self.update();
         let areas = &self.state.shape.geometry.rings.areas;
@@ -337,8 +338,11 @@ impl ActiveInterface {
                 return Err(InterfaceError::field_not_axisymmetric(name));
             }
         }
+        if fields.friction.is_some() && self.is_axisymmetric() {
+            return Err(InterfaceError::resisting_revolution());
+        }
         self.felt = (!fields.is_none()).then(|| Box::new(Felt::new(fields)));
-        self.update_tensions();
+        self.make_resistance()?;
         Ok(self)
     }
 
@@ -412,8 +416,7 @@ impl ActiveInterface {
             return Err(InterfaceError::round_membrane());
         }
         self.law.cortex = cortex;
-        self.scheme.resistance = Resistance::of(&self.law, self.markers().len(), self.state.shape.axisymmetric)?;
-        self.update_tensions();
+        self.make_resistance()?;
         Ok(self)
     }
 
@@ -432,9 +435,42 @@ impl ActiveInterface {
             return Err(InterfaceError::resisting_revolution());
         }
         self.law.friction = not_negative("the friction with the substrate", coefficient)?;
-        self.scheme.resistance = Resistance::of(&self.law, self.markers().len(), self.state.shape.axisymmetric)?;
-        self.update_tensions();
+        self.make_resistance()?;
         Ok(self)
+    }
+
+    /// Gives the interface friction with the straight walls of a channel, through a film of this viscosity (stress
+    /// times time) whose thickness is the distance d to each wall. The force is `-viscosity v/d` per length, for the
+    /// part of the velocity v along the interface. The part across is not resisted, because the flow in the gap does
+    /// that.
+    ///
+    /// Use it for what lies in the gap and is thinner than the flow resolves, such as adhesion molecules. The walls
+    /// have to be at rest.
+    ///
+    /// # Errors
+    /// Returns an error for a viscosity that is negative or not finite; a body of revolution.
+    pub fn with_wall_friction(mut self, viscosity: f64) -> Result<Self, InterfaceError> {
+        if self.state.shape.axisymmetric && viscosity > 0.0 {
+            return Err(InterfaceError::resisting_revolution());
+        }
+        self.law.wall_film = not_negative("the viscosity of the film at walls", viscosity)?;
+        self.make_resistance()?;
+        Ok(self)
+    }
+
+    /// Makes the stresses that cortex and friction have.
+    fn make_resistance(&mut self) -> Result<(), InterfaceError> {
+        let friction = self.has_friction();
+        self.scheme.resistance =
+            Resistance::of(&self.law, friction, self.markers().len(), self.state.shape.axisymmetric)?;
+        self.update_tensions();
+        Ok(())
+    }
+
+    /// Returns true with friction of any kind.
+    pub(super) fn has_friction(&self) -> bool {
+        let graded = self.felt.as_ref().is_some_and(|felt| felt.fields.friction.is_some());
+        self.law.friction > 0.0 || self.law.wall_film > 0.0 || graded
     }
 
     /// Makes a force act on the fluid inside, uniform over its area: its weight less the weight of as much fluid around
@@ -572,6 +608,12 @@ impl ActiveInterface {
     #[must_use]
     pub fn cortex_viscosity(&self) -> f64 {
         self.law.cortex.viscosity
+    }
+
+    /// Returns the viscosity of the film at walls (stress times time), 0 without friction with them.
+    #[must_use]
+    pub fn wall_friction(&self) -> f64 {
+        self.law.wall_film
     }
 
     /// Returns the coefficient xi of the friction with a substrate (force times time per length squared).

@@ -41,6 +41,10 @@ const LEAST_STEPS: f64 = 4.0;
 const ACCURATE_STEPS: f64 = 24.0;
 const FIELD_CHANGES: &str = "the changes of a field in time";
 
+/// Number of the wave along an interface that bends up to which steps follow the decay. It is implicit, and stable in
+/// longer steps too.
+const FOLLOWED_WAVE: f64 = 4.0;
+
 /// Multiple of the mean concentration beyond which a tension law is not looked at: the concentration of all particles
 /// on one of a thousand segments.
 const MOST_CONCENTRATED: f64 = 1024.0;
@@ -118,12 +122,24 @@ impl ActiveInterface {
     /// Returns the largest stable steps of the explicit midpoint rule, which is stable for decay at the rate a up to
     /// 2/a.
     pub(super) fn add_step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
-        let (bending, reason) = match &self.law.bending {
-            None => (0.0, "the surface tension"),
-            Some(bending) => (bending.tension(self.shortest_wave(view)), "the bending"),
-        };
-        let stiffness = view.interface_stiffness * (self.largest_tension() + bending);
-        limits(StepLimit::decay(2.0 * viscosity / stiffness, reason));
+        let tension = self.largest_tension();
+        let decay = |tension: f64| 2.0 * viscosity / (view.interface_stiffness * tension);
+        match &self.law.bending {
+            None => limits(StepLimit::decay(decay(tension), "the surface tension")),
+            Some(bending) => {
+                let bare = decay(tension + bending.tension(self.shortest_wave(view)));
+                limits(if self.law.stabilised {
+                    // The tension stays explicit, and so does what the first waves are followed with.
+                    let wave = (FOLLOWED_WAVE * TAU / self.geometry().perimeter).min(self.shortest_wave(view));
+                    let response = (0.25 * wave).min(view.interface_stiffness);
+                    let followed = 2.0 * viscosity / (response * bending.tension(wave));
+                    let dt = decay(tension).min(followed);
+                    StepLimit { dt, reason: "the bending", cause: StepCause::Stabilised { bare } }
+                } else {
+                    StepLimit::decay(bare, "the bending")
+                });
+            }
+        }
         if let Some(force) = &self.law.body_force {
             limits(StepLimit::decay(2.0 / force.rate(&self.state.shape, viscosity), "the body force"));
         }

@@ -13,6 +13,7 @@ use super::{
     limits::grid_spacing,
     spectral::SpectralCurve,
 };
+use crate::Field;
 use rings::RingStresses;
 
 /// Least viscosity of a cortex that depends on its particles, over the largest: where it vanishes the compliance would
@@ -23,8 +24,8 @@ const LEAST_VISCOSITY: f64 = 1e-9;
 ///
 /// * with a cortex the viscous tensions `eta_s Th` of the segments (force), whose rates are those at which the segments
 ///   stretch (length per time),
-/// * with friction the forces `xi w v` of the substrate on the markers (force), w their weights, whose rates are the
-///   velocities.
+/// * with friction the forces `xi w v` of the substrate on the markers (force), outward and along, w their weights,
+///   whose rates are these components of the velocities. Walls resist the component along only.
 ///
 /// The preconditioner is the inverse for a circle of the same perimeter, on which waves of any number are independent
 /// ([`Wave`]), or for a flat interface. Waves beyond those that the flow resolves are left out.
@@ -38,6 +39,10 @@ pub(super) struct Resistance {
     /// Waves of the preconditioner, number m = 0 first, and factors on the tensions before and after it.
     waves: Vec<Wave>,
     scales: Vec<f64>,
+    /// The same factors on the forces of friction outward and along; empty if the friction is uniform.
+    friction_scales: Vec<f64>,
+    /// Friction outward and along at the markers (force times time per length squared).
+    frictions: Vec<[f64; 2]>,
     /// Coefficients of the viscous tensions at the markers, and of the forces of friction, outward and along.
     coefficients: [Vec<Complex64>; 2],
     /// Tensions of the segments in all (force), with a cortex.
@@ -49,6 +54,9 @@ pub(super) struct Resistance {
 
 /// Number of the waves by which the fluid gives way, in comparison with a cortex whose compliance varies.
 const TYPICAL_WAVE: f64 = 4.0;
+
+/// Friction below this fraction of the largest one counts as this fraction, as a compliance has to be finite.
+const LEAST_FRICTION: f64 = 1e-9;
 
 /// Returns the compliance of the mean stiffness.
 fn mean_compliance(list: &[f64]) -> f64 {
@@ -111,12 +119,17 @@ impl Wave {
 }
 
 impl Resistance {
-    /// Creates the stresses of a law on so many markers; `None` if there are none.
+    /// Creates the stresses of a law, with friction or without, on so many markers; `None` if there are none.
     ///
     /// # Errors
     /// Returns an error for more markers than a Fourier transform takes.
-    pub(super) fn of(law: &Law, markers: usize, axisymmetric: bool) -> Result<Option<Box<Self>>, InputError> {
-        let parts = [!law.cortex.is_none(), law.friction > 0.0];
+    pub(super) fn of(
+        law: &Law,
+        friction: bool,
+        markers: usize,
+        axisymmetric: bool,
+    ) -> Result<Option<Box<Self>>, InputError> {
+        let parts = [!law.cortex.is_none(), friction];
         if parts == [false; 2] {
             return Ok(None);
         }
@@ -127,6 +140,8 @@ impl Resistance {
             stresses: Vec::new(),
             waves: Vec::new(),
             scales: Vec::new(),
+            friction_scales: Vec::new(),
+            frictions: Vec::new(),
             coefficients: [0; 2].map(|_| vec![Complex64::ZERO; markers]),
             tensions: Vec::new(),
             vectors: vec![Vec2::ZERO; markers],
@@ -159,7 +174,8 @@ impl Resistance {
         if self.parts[0] { self.transform.len() } else { 0 }
     }
 
-    /// Returns the viscous tensions of the segments and the forces of friction x, y on the markers (force).
+    /// Returns the viscous tensions of the segments and the forces of friction, outward and along, on the markers
+    /// (force).
     pub(super) fn stresses(&self) -> &[f64] {
         &self.stresses
     }
@@ -186,6 +202,21 @@ impl Resistance {
         self.tensions.extend(tensions.iter().zip(viscous).map(|(tension, viscous)| tension + viscous));
     }
 
+    /// Computes the friction at the markers, to which a field adds at a time, and walls at these heights (length) along
+    /// the interface.
+    fn write_frictions(&mut self, law: &Law, shape: &Shape, field: Option<(&Field, f64)>, walls: Option<[f64; 2]>) {
+        self.frictions.clear();
+        self.frictions.extend(shape.markers.iter().map(|marker| {
+            let all = law.friction + field.map_or(0.0, |(field, time)| field.value(*marker, time));
+            let distances = walls.map_or([f64::INFINITY; 2], |[below, above]| [marker.y - below, above - marker.y]);
+            let film = |distance: f64| if law.wall_film > 0.0 { law.wall_film / distance.max(0.0) } else { 0.0 };
+            [all, all + distances.map(film).iter().sum::<f64>()]
+        }));
+        let most = self.frictions.iter().flatten().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let least = LEAST_FRICTION * if most > 0.0 { most } else { 1.0 };
+        self.frictions.as_flattened_mut().iter_mut().for_each(|value| *value = value.max(least));
+    }
+
     /// Computes compliances and preconditioner at the present state, at the mean viscosity of both sides (stress times
     /// time).
     fn update(&mut self, law: &Law, shape: &Shape, concentrations: &[f64], view: &FluidView, viscosity: f64) {
@@ -197,8 +228,9 @@ impl Resistance {
         for ((compliance, span), &c) in cortex.iter_mut().zip(spans).zip(concentrations) {
             *compliance = if law.cortex.inextensible { 0.0 } else { span / law.cortex.viscosity_at(c).max(least) };
         }
-        for (pair, weight) in friction.chunks_exact_mut(2).zip(&geometry.weights) {
-            pair.fill(1.0 / (law.friction * weight));
+        let pairs = friction.chunks_exact_mut(2).zip(&self.frictions);
+        for ((pair, frictions), weight) in pairs.zip(&geometry.weights) {
+            pair.copy_from_slice(&frictions.map(|friction| 1.0 / (friction * weight)));
         }
         let radius = geometry.perimeter / std::f64::consts::TAU;
         let (spacing, finest) = (geometry.mean_length(), grid_spacing(view));
@@ -212,6 +244,10 @@ impl Resistance {
         let fluid = unit * TYPICAL_WAVE * (spacing / radius).powi(2);
         self.scales.clear();
         self.scales.extend(cortex.iter().map(|compliance| ((own[0] + fluid) / (compliance + fluid)).sqrt()));
+        self.friction_scales.clear();
+        if self.frictions.iter().any(|pair| *pair != [law.friction; 2]) {
+            self.friction_scales.extend(friction.iter().map(|c| ((own[1] + fluid) / (c + fluid)).sqrt()));
+        }
         let waves = (0..=largest).map(|number| {
             let number = number as f64;
             let m = finest.map_or(number, |h| number.min(0.5 * std::f64::consts::PI * radius / h));
@@ -234,10 +270,16 @@ impl Resistance {
     }
 
     /// Replaces rates by the stresses that cause them on a circle.
-    fn precondition(&mut self, geometry: &Geometry, rates: &mut [f64]) {
+    fn precondition(&mut self, rates: &mut [f64]) {
         let (count, split) = (self.transform.len(), self.split());
         let Self {
-            transform, parts: [has_cortex, has_friction], waves, scales, coefficients: [tension, force], ..
+            transform,
+            parts: [has_cortex, has_friction],
+            waves,
+            scales,
+            friction_scales,
+            coefficients: [tension, force],
+            ..
         } = self;
         let (cortex, friction) = rates.split_at_mut(split);
         // The lists are as long as the transform, so that its calls cannot fail.
@@ -248,9 +290,9 @@ impl Resistance {
             let _ = transform.forward(tension);
         }
         if *has_friction {
-            for ((out, pair), tau) in force.iter_mut().zip(friction.chunks_exact(2)).zip(&geometry.tangents) {
-                let rate = Vec2::new(pair[0], pair[1]);
-                *out = Complex64::new(rate.dot(outward(*tau)), rate.dot(*tau));
+            friction.iter_mut().zip(&*friction_scales).for_each(|(rate, scale)| *rate *= scale);
+            for (out, pair) in force.iter_mut().zip(friction.chunks_exact(2)) {
+                *out = Complex64::new(pair[0], pair[1]);
             }
             let _ = transform.forward(force);
         }
@@ -277,9 +319,10 @@ impl Resistance {
         }
         if *has_friction {
             let _ = transform.inverse(force);
-            for ((pair, stress), tau) in friction.chunks_exact_mut(2).zip(force).zip(&geometry.tangents) {
-                pair.copy_from_slice(&(stress.re * outward(*tau) + stress.im * *tau).to_array());
+            for (pair, stress) in friction.chunks_exact_mut(2).zip(force) {
+                pair.copy_from_slice(&[stress.re, stress.im]);
             }
+            friction.iter_mut().zip(&*friction_scales).for_each(|(stress, scale)| *stress *= scale);
         }
     }
 }
@@ -287,12 +330,12 @@ impl Resistance {
 impl ActiveInterface {
     /// Makes the stresses fit the law and the number of markers.
     pub(super) fn fit_resistance(&mut self) -> Result<(), InputError> {
-        let (count, law) = (self.state.shape.markers.len(), &self.law);
+        let (count, law, friction) = (self.state.shape.markers.len(), &self.law, self.has_friction());
         let fits = |resistance: &Resistance| {
             resistance.markers() == count && resistance.rings.is_some() == self.state.shape.axisymmetric
         };
         if !self.scheme.resistance.as_ref().is_some_and(|resistance| fits(resistance)) {
-            self.scheme.resistance = Resistance::of(law, count, self.state.shape.axisymmetric)?;
+            self.scheme.resistance = Resistance::of(law, friction, count, self.state.shape.axisymmetric)?;
             if let Some(resistance) = &mut self.scheme.resistance {
                 resistance.add_tensions(&self.derived.tensions);
             }
@@ -313,6 +356,10 @@ impl ActiveInterface {
                 let fluids = (viscosities, view.shape_modes);
                 rings.update(law.cortex, of, concentrations, fluids, &mut resistance.compliances);
             } else {
+                if resistance.parts[1] {
+                    let felt = self.felt.as_ref().and_then(|felt| Some((felt.fields.friction.as_ref()?, felt.time)));
+                    resistance.write_frictions(law, shape, felt, view.domain.walls);
+                }
                 resistance.update(law, shape, concentrations, view, viscosity);
             }
         }
@@ -350,8 +397,8 @@ impl Viscous for ActiveInterface {
                 *rate = (*next - *here).dot(*direction);
             }
         }
-        for (pair, velocity) in friction.chunks_exact_mut(2).zip(velocities) {
-            pair.copy_from_slice(&velocity.to_array());
+        for ((pair, velocity), tau) in friction.chunks_exact_mut(2).zip(velocities).zip(&geometry.tangents) {
+            pair.copy_from_slice(&[velocity.dot(outward(*tau)), velocity.dot(*tau)]);
         }
     }
 
@@ -369,8 +416,8 @@ impl Viscous for ActiveInterface {
             }
             forces.iter_mut().zip(own).for_each(|(force, own)| *force += *own);
         }
-        for (pair, force) in friction.chunks_exact(2).zip(forces) {
-            *force -= Vec2::new(pair[0], pair[1]);
+        for ((pair, force), tau) in friction.chunks_exact(2).zip(forces).zip(&geometry.tangents) {
+            *force -= pair[0] * outward(*tau) + pair[1] * *tau;
         }
     }
 
@@ -381,10 +428,10 @@ impl Viscous for ActiveInterface {
     }
 
     fn precondition(&mut self, rates: &mut [f64]) {
-        if let Some((resistance, _, geometry)) = self.resisting() {
+        if let Some((resistance, ..)) = self.resisting() {
             match &mut resistance.rings {
                 Some(rings) => rings.precondition(rates),
-                None => resistance.precondition(geometry, rates),
+                None => resistance.precondition(rates),
             }
         }
     }

@@ -185,7 +185,7 @@ fn the_stabiliser_by_hand() {
         let numbers = droplet.element_lengths().iter().map(|length| c * length).collect();
         let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
         droplet = ActiveDroplet::new(droplet.markers(), numbers, law, 0.05).unwrap();
-        let step = motile_scene::StepInfo { dt: 0.01, stabilised: on };
+        let step = StepInfo { dt: 0.01, stabilised: on };
         droplet.begin_step(&Converging { smooth: false }.fluid_view(), step).unwrap();
         assert_eq!(droplet.interface.scheme.stabiliser.len(), expected.len());
         for (found, expected) in droplet.interface.scheme.stabiliser.iter().zip(expected) {
@@ -362,8 +362,8 @@ fn implicit_exchange_keeps_the_number_of_particles() {
     assert!((gained - 0.1 * flux).abs() < 1e-12 && (lost - 0.1 * flux).abs() < 1e-12, "{gained} {lost} {flux}");
 }
 
-fn motion_step() -> motile_scene::StepInfo {
-    motile_scene::StepInfo { dt: 0.1, stabilised: false }
+fn motion_step() -> StepInfo {
+    StepInfo { dt: 0.1, stabilised: false }
 }
 
 /// Observables of a droplet in a scene are those of its own viscosity inside and of the fluid's outside.

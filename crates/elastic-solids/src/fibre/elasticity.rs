@@ -68,7 +68,8 @@ impl Elasticity {
         })
     }
 
-    /// Returns the clamped ends: number of the end, its node, its segment, the direction of the clamp and the length M.
+    /// Returns the clamped ends: number of the end, its node, its segment, the direction of the clamp, and half the
+    /// length of the segment at rest (length), over which the clamp bends the fibre.
     fn clamped(&self) -> impl Iterator<Item = (usize, usize, usize, Vec2, f64)> + '_ {
         let last = self.lengths.len() - 1;
         let places = [(0, 0), (self.bending.len() - 1, last)];
@@ -87,7 +88,7 @@ impl Elasticity {
         self.lengths.iter().enumerate().map(|(k, length)| self.segment(nodes, k).length() / length)
     }
 
-    /// Returns the numbers of the nodes with hinges, clamps not among them, and the turning angles there (radians).
+    /// Returns the nodes with hinges, except for clamps, and the turning angles there (radians).
     pub(super) fn angles<'a>(&'a self, nodes: &'a [Vec2]) -> impl Iterator<Item = (usize, f64)> + 'a {
         self.hinges().map(|Hinge { node, segments, .. }| {
             let [before, after] = segments.map(|segment| self.segment(nodes, segment));

@@ -115,8 +115,16 @@ impl FibreFiles {
     /// `name.target` where they exist.
     ///
     /// # Errors
-    /// Returns an error for files that cannot be read, and the errors of [`FibreFiles::parse`].
+    /// Returns the errors of [`FibreFiles::texts`] and [`FibreFiles::parse`].
     pub fn read(name: &Path) -> Result<Self, SolidError> {
+        Self::parse(Self::texts(name)?.each_ref().map(String::as_str))
+    }
+
+    /// Returns the texts of the files of vertices, springs, beams and targets, as [`FibreFiles::parse`] takes them.
+    ///
+    /// # Errors
+    /// Returns an error for files that cannot be read.
+    pub fn texts(name: &Path) -> Result<[String; 4], SolidError> {
         let text = |ending: &str, needed: bool| {
             let mut path = name.as_os_str().to_owned();
             path.push(ending);
@@ -131,7 +139,7 @@ impl FibreFiles {
             }
         };
         let [springs, beams, targets] = [text(".spring", true)?, text(".beam", false)?, text(".target", false)?];
-        Self::parse([&text(".vertex", true)?, &springs, &beams, &targets])
+        Ok([text(".vertex", true)?, springs, beams, targets])
     }
 
     /// Reads the texts of the files of vertices, springs, beams and targets; an empty text is a file that does not

@@ -197,6 +197,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
         self.flow.wall_slip()
     }
 
+    fn friction(&self) -> f64 {
+        Hydrodynamics::friction(&self.flow)
+    }
+
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.flow.check(markers)?;
         self.set_viscosity(markers)?;

@@ -167,3 +167,36 @@ fn wrong_values_name_the_key_and_what_is_expected() {
     set(&mut scene, "region.channel.width", Value::Float(3.0)).unwrap();
     assert!(format!("{:#}", setup_of(&scene).unwrap_err()).contains("length"));
 }
+
+/// Files are read after the assignments, so that these choose the file and the outline in it.
+#[test]
+fn assignments_choose_files_and_their_outlines() {
+    let directory = std::env::temp_dir().join(format!("motile-keys-{}", std::process::id()));
+    fs::create_dir_all(&directory).unwrap();
+    let square = |name: &str, side: f64| format!("<path id='{name}' d='M0 0H{side}V{side}H0Z'/>");
+    let drawn =
+        format!("<svg xmlns='http://www.w3.org/2000/svg'>{}{}</svg>", square("small", 2.0), square("large", 4.0));
+    fs::write(directory.join("cells.svg"), drawn).unwrap();
+    fs::write(directory.join("other.csv"), "0,0\n6,0\n6,6\n0,6\n").unwrap();
+    let path = directory.join("scene.toml");
+    let outline = "shape.outline = { file = \"cells.svg\", name = \"small\", rounding = 0.5 }";
+    fs::write(&path, format!("region = \"plane\"\n[[droplets]]\nparticles = \"none\"\n{outline}\n")).unwrap();
+    let area = |assigned: &[String]| -> Result<f64> {
+        let assigned: Vec<_> = assigned.iter().map(|text| assignment(text).unwrap()).collect();
+        Ok(scene_of(&path, &assigned)?.outlines()?[0].area)
+    };
+    // A square whose corners are rounded with radius r lacks (4 - π) r².
+    let exact = |side: f64| side * side - (4.0 - std::f64::consts::PI) * 0.25;
+    let file = |name: &str| format!("droplets.0.shape.outline.file={:?}", directory.join(name));
+    for (assigned, side) in [
+        (vec![], 2.0),
+        (vec!["droplets.0.shape.outline.name=large".to_owned()], 4.0),
+        (vec![file("cells.svg"), "droplets.0.shape.outline.name=large".to_owned()], 4.0),
+    ] {
+        let found = area(&assigned).unwrap();
+        assert!((found / exact(side) - 1.0).abs() < 1e-6, "{assigned:?}: {found}");
+    }
+    let missing = format!("{:#}", area(&[file("nothing.csv")]).unwrap_err());
+    assert!(missing.contains("nothing.csv"), "{missing}");
+    fs::remove_dir_all(directory).unwrap();
+}

@@ -20,7 +20,8 @@ use motile_output::{
     SolidColour, Track, TrajectoryCsv, WallShearCsv,
 };
 pub use view::View;
-use view::{caption, view_of};
+pub(super) use view::caption;
+use view::view_of;
 
 /// Files for ParaView in a run.
 const FILES: f64 = 20.0;

@@ -9,7 +9,7 @@ use motile::setup::Setup;
 use serde_json::Value;
 
 use super::run_pool::made_again;
-use crate::run::{CheckpointFlags, OutputFlags, SceneRun, Summary, Taken, View, explained, make_directory};
+use crate::run::{CheckpointFlags, OutputFlags, SceneRun, SpaceRun, Summary, Taken, View, explained, make_directory};
 
 /// Entry of a summary with the [`Trial::fingerprint`] of its run.
 pub(super) const FINGERPRINT: &str = "fingerprint";
@@ -163,11 +163,23 @@ impl Trial {
         let checkpoints = CheckpointFlags { checkpoint, resume, ..CheckpointFlags::default() };
         let out = Some(self.folder.clone());
         let output = OutputFlags { no_pictures: true, quiet: true, out, checkpoints, ..OutputFlags::default() };
-        let view = View::of(&self.setup);
-        let mut run = SceneRun::new(self.setup.build()?, &self.setup, self.time, &output, &self.name(), &view)?;
-        run.go(None)?;
-        let summary = run.measured()?;
-        run.outcome()?;
+        let (view, built) = (View::of(&self.setup), self.setup.build()?);
+        let summary = match built.space {
+            Some(body) => {
+                let mut run = SpaceRun::new(built.scene, body, &self.setup, self.time, &output, &self.name())?;
+                run.go()?;
+                let summary = run.summary()?;
+                run.outcome()?;
+                summary
+            }
+            None => {
+                let mut run = SceneRun::new(built, &self.setup, self.time, &output, &self.name(), &view)?;
+                run.go(None)?;
+                let summary = run.measured()?;
+                run.outcome()?;
+                summary
+            }
+        };
         // It may have failed before.
         let _ = fs::remove_file(self.failure());
         Ok(summary)

@@ -157,3 +157,16 @@ fn lost_and_new_particles_are_errors() {
         }
     }
 }
+
+/// Noise on the particles of the interface is refused, whether it comes before or after the particles inside.
+#[test]
+fn noise_is_refused() {
+    let (droplet, mut body) = filled(32, 0.5, |_| 1.0);
+    let noisy = droplet.with_noise(active_interface::Noise::new(1)).unwrap();
+    let host = body.filling.host;
+    let error = ParticlesInDroplet::new(&noisy, host, Exchange::new(1.0, 1.0).unwrap(), 0.5, |_| 1.0, 0.2);
+    assert!(error.unwrap_err().to_string().contains("no noise"));
+    body.update_host(&noisy);
+    let mut forces = vec![Vec2::ZERO; body.marker_count()];
+    assert!(body.write_forces(&view(), &mut forces).unwrap_err().to_string().contains("no noise"));
+}

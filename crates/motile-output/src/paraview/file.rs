@@ -30,7 +30,7 @@ impl Array {
     }
 }
 
-/// Content of a VTK file: a geometry with named arrays of values at its points and in its cells. Vectors get a zero
+/// Content of a VTK file: a geometry with named arrays of values at its points and in its cells. Vectors of the plane get a zero
 /// third component; values are stored in single, positions in double precision.
 ///
 /// ```
@@ -168,15 +168,26 @@ impl VtkFile {
     /// Creates triangles (UnstructuredGrid, `.vtu`) of points (length), by the numbers of their corners.
     #[must_use]
     pub fn triangles(points: &[Vec2], triangles: &[[usize; 3]]) -> Self {
+        Self::of_triangles(points.len(), &positions(points), triangles)
+    }
+
+    /// Creates triangles (UnstructuredGrid, `.vtu`) of points in three dimensions (length), by the numbers of their
+    /// corners.
+    #[must_use]
+    pub fn triangles_in_space(points: &[[f64; 3]], triangles: &[[usize; 3]]) -> Self {
+        Self::of_triangles(points.len(), &positions_in_space(points.iter().copied()), triangles)
+    }
+
+    fn of_triangles(points: usize, positions: &str, triangles: &[[usize; 3]]) -> Self {
         let cells = triangles.len();
         let corners: Vec<i64> = triangles.iter().flatten().map(|&k| k as i64).collect();
         let ends: Vec<i64> = (1..=cells).map(|k| 3 * k as i64).collect();
         let cell_text = connectivity(&corners, &ends) + &array("UInt8", "types", 1, &vec![5; cells]);
         Self {
-            piece: format!("NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\"", points.len()),
-            geometry: format!("{}<Cells>\n{cell_text}</Cells>\n", positions(points)),
+            piece: format!("NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\""),
+            geometry: format!("{positions}<Cells>\n{cell_text}</Cells>\n"),
             needed: triangles.iter().flatten().max().map_or(0, |last| last + 1),
-            ..Self::new("UnstructuredGrid", "vtu", points.len(), cells)
+            ..Self::new("UnstructuredGrid", "vtu", points, cells)
         }
     }
 
@@ -191,6 +202,13 @@ impl VtkFile {
     #[must_use]
     pub fn point_vectors(mut self, name: &str, values: impl IntoIterator<Item = Vec2>) -> Self {
         self.point_data.push(Array::vectors(name, values));
+        self
+    }
+
+    /// Adds a vector with three components at each point.
+    #[must_use]
+    pub fn point_vectors_in_space(mut self, name: &str, values: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        self.point_data.push(Array { vectors: true, ..Array::scalars(name, values.into_iter().flatten()) });
         self
     }
 

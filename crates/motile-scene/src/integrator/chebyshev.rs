@@ -10,6 +10,7 @@ use crate::{SceneError, saved_state::SavedState};
 
 /// Source of the fastest rate of decay, which says how many stages each step needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SpectralEstimate {
     /// From the bodies' own limits ([`crate::Body::step_limits`]): costs nothing.
     Predicted,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile_base::{Drive, FlowSample, InputError, PeriodicSeries, Vec2, within};
 
-use crate::{FluidView, Handle, Hydrodynamics, Markers, SceneError, System, body::Body};
+use crate::{FluidView, Handle, Hydrodynamics, Markers, ObstacleLoad, SceneError, System, body::Body};
 
 /// Points on a wall at first, and at most, when its shear stress is integrated.
 const POINTS: [usize; 2] = [64, 4096];
@@ -14,7 +14,7 @@ const SETTLED: f64 = 1e-10;
 /// Forces along a channel, over one period and per unit of depth. They obey
 ///
 /// ```text
-/// pressure_drop width = on_walls[0] + on_walls[1] + on_bodies.x
+/// pressure_drop width = on_walls[0] + on_walls[1] + on_bodies.x + on_obstacles.x + on_plates
 /// ```
 ///
 /// The forces on the walls follow from the reciprocal theorem with the flow that one sliding wall alone drives, whose
@@ -25,7 +25,13 @@ const SETTLED: f64 = 1e-10;
 /// F_upper = pressure_drop INT s dy + INT s f_x dA - eta period s' (U_upper - U_lower)
 /// ```
 ///
-/// with all forces f on the fluid. The forces that keep a rigid body rigid, and the stress of another viscosity inside
+/// with all forces f on the fluid. In a fluid with the friction alpha, q^2 = alpha/eta, s solves s'' = q^2 s instead:
+///
+/// ```text
+/// s(y) = (sinh q y + q b_1 cosh q y)/((1 + q^2 b_1 b_2) sinh q w + q (b_1 + b_2) cosh q w),  y from the lower wall
+/// ```
+///
+/// The forces that keep a rigid body rigid, and the stress of another viscosity inside
 /// an interface, count by their dipoles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -44,6 +50,10 @@ pub struct ChannelForces {
     pub on_walls: [f64; 2],
     /// Force of the fluid on all bodies together (force).
     pub on_bodies: Vec2,
+    /// Force of the fluid on all obstacles, the closed rigid walls, together (force).
+    pub on_obstacles: Vec2,
+    /// Force of the fluid along x on the plates that it rubs against (force); zero without friction of the fluid.
+    pub on_plates: f64,
 }
 
 impl ChannelForces {
@@ -51,18 +61,19 @@ impl ChannelForces {
     /// (force): an error, if they come from somewhere else, such as [`System::wall_traction`].
     #[must_use]
     pub fn imbalance(&self, [lower, upper]: [f64; 2]) -> f64 {
-        self.pressure_drop * self.width - (lower + upper + self.on_bodies.x)
+        self.pressure_drop * self.width - (lower + upper + self.on_bodies.x) - (self.on_obstacles.x + self.on_plates)
     }
 
     /// Returns the largest of the forces along x, with which an imbalance is compared (force).
     #[must_use]
     pub fn scale(&self) -> f64 {
         let all = [self.pressure_drop * self.width, self.on_walls[0], self.on_walls[1], self.on_bodies.x];
-        all.into_iter().map(f64::abs).fold(0.0, f64::max)
+        all.into_iter().chain([self.on_obstacles.x, self.on_plates]).map(f64::abs).fold(0.0, f64::max)
     }
 }
 
 /// Straight walls of a channel: heights (length), slip lengths (length), and the period (length).
+#[derive(Debug, Clone, Copy)]
 struct Walls {
     heights: [f64; 2],
     slip: [f64; 2],
@@ -85,6 +96,41 @@ impl Walls {
         let (w, [below, above]) = (self.width(), self.slip);
         let slope = (0.5 * w * w + above * w) / (w + below + above);
         1.0 / (slope * (0.5 * w * w + below * w) - w * w * w / 6.0)
+    }
+}
+
+/// The flow `s(y)` along x that a wall drives which slides at 1, next to another one at rest, in a fluid with friction.
+struct RubbingFlow {
+    /// Square root of the friction over the viscosity (1/length).
+    wave: f64,
+    width: f64,
+    /// Slip lengths of the wall at rest and of the other one (length).
+    slip: [f64; 2],
+}
+
+impl RubbingFlow {
+    /// Returns the two hyperbolic functions of q y and 1, times exp(-q w), and the value of both at the sliding wall.
+    fn parts(&self, y: f64) -> ([f64; 3], f64) {
+        let Self { wave: q, width, slip: [b, c] } = *self;
+        let of = |y: f64| {
+            let [up, down] = [(q * (y - width)).exp(), (-q * (y + width)).exp()];
+            [0.5 * (up - down), 0.5 * (up + down)]
+        };
+        let ([sinh, cosh], [far_sinh, far_cosh]) = (of(y), of(width));
+        let over = (1.0 + q * q * b * c) * far_sinh + q * (b + c) * far_cosh;
+        ([sinh, cosh, (-q * width).exp()], over)
+    }
+
+    /// Returns s at a distance from the wall at rest (length).
+    fn value(&self, y: f64) -> f64 {
+        let ([sinh, cosh, _], over) = self.parts(y);
+        (sinh + self.wave * self.slip[0] * cosh) / over
+    }
+
+    /// Returns the integral of s from wall to wall (length).
+    fn integral(&self) -> f64 {
+        let ([sinh, cosh, one], over) = self.parts(self.width);
+        ((cosh - one) / self.wave + self.slip[0] * sinh) / over
     }
 }
 
@@ -137,8 +183,9 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Returns the forces along a channel in the present state. It is `None` if there are no straight walls on which
-    /// they are known: outside of channels, behind curved rigid walls, and in a fluid with friction. It is also `None`
-    /// if an interface that is periodic along x separates a sliding or slipping wall from fluid of another viscosity.
+    /// they are known: outside of channels, and behind curved rigid walls. It is also `None` in a fluid with friction
+    /// if viscosities differ, and if an interface that is periodic along x separates a sliding or slipping wall from
+    /// fluid of another viscosity.
     ///
     /// # Errors
     /// Returns the errors of [`System::evaluate`].
@@ -154,15 +201,24 @@ impl<H: Hydrodynamics> System<H> {
         if layered && (walls.slip != [0.0; 2] || !imposed.is_none()) {
             return Ok(None);
         }
+        let (friction, loads) = (self.hydrodynamics().friction(), self.hydrodynamics().obstacle_loads());
+        if friction > 0.0 {
+            return Ok(self.forces_with_friction(walls, friction, eta));
+        }
         let Walls { heights: [below, _], slip, period } = walls;
         let (width, reach) = (walls.width(), walls.width() + slip[0] + slip[1]);
         // Zero without a sign for no gradient.
         let pressure_drop = 0.0 - self.report().mean_pressure_gradient[0] * period;
         let shear = eta * imposed.shear_rate() * period;
         let on_bodies = -markers.forces().iter().sum::<Vec2>();
-        let upper = pressure_drop * (0.5 * width + slip[0]) * width / reach - shear
+        let mut upper = pressure_drop * (0.5 * width + slip[0]) * width / reach - shear
             + moment(markers, below - slip[0], eta)? / reach;
-        let lower = pressure_drop * width - on_bodies.x - upper;
+        let mut on_obstacles = Vec2::ZERO;
+        for load in loads.iter().flatten() {
+            on_obstacles += load.force;
+            upper -= ((load.centroid.y - below + slip[0]) * load.force.x + load.shear) / reach;
+        }
+        let lower = pressure_drop * width - on_bodies.x - on_obstacles.x - upper;
         let extra = |drive: Drive| {
             let flux = drive.flux().filter(|_| !layered)? - width * imposed.velocity[0];
             Some(pressure_drop - eta * period * flux * walls.per_flux())
@@ -174,7 +230,53 @@ impl<H: Hydrodynamics> System<H> {
             extra_pressure_drop: self.hydrodynamics().drive().and_then(extra),
             on_walls: [lower, upper],
             on_bodies,
+            on_obstacles,
+            on_plates: 0.0,
         }))
+    }
+
+    /// Returns the forces of the last evaluation in a fluid with that friction and viscosity; `None` if viscosities
+    /// differ.
+    fn forces_with_friction(&self, walls: Walls, friction: f64, eta: f64) -> Option<ChannelForces> {
+        let (markers, width, period) = (self.markers(), walls.width(), walls.period);
+        let differs = |group: &crate::MarkerGroup| group.viscosities(eta).iter().any(|viscosity| *viscosity != eta);
+        if markers.groups().iter().any(differs) || !self.imposed().is_none() {
+            return None;
+        }
+        let pressure_drop = 0.0 - self.report().mean_pressure_gradient[0] * period;
+        let [below, above] = walls.slip;
+        let wave = (friction / eta).sqrt();
+        let flows = [[above, below], [below, above]].map(|slip| RubbingFlow { wave, width, slip });
+        let on_walls = [0, 1].map(|wall| {
+            // From the wall at rest, which is the other one.
+            let distance = |y: f64| if wall == 0 { walls.heights[1] - y } else { y - walls.heights[0] };
+            let pushed = markers.positions().iter().zip(markers.forces());
+            pressure_drop * flows[wall].integral()
+                + pushed.map(|(place, force)| flows[wall].value(distance(place.y)) * force.x).sum::<f64>()
+        });
+        let on_bodies = -markers.forces().iter().sum::<Vec2>();
+        let open = width - flows[0].integral() - flows[1].integral();
+        let flux = self.hydrodynamics().drive().and_then(Drive::flux);
+        Some(ChannelForces {
+            period,
+            width,
+            pressure_drop,
+            extra_pressure_drop: flux.map(|flux| pressure_drop - friction * period * flux / open),
+            on_walls,
+            on_bodies,
+            on_obstacles: Vec2::ZERO,
+            on_plates: pressure_drop * width - on_bodies.x - on_walls[0] - on_walls[1],
+        })
+    }
+
+    /// Returns what the fluid does to each rigid wall besides the straight walls of the domain, in the present state.
+    /// It is `None` for a wall that is not closed, behind which there is fluid too.
+    ///
+    /// # Errors
+    /// Returns the errors of [`System::evaluate`].
+    pub fn obstacle_loads(&mut self) -> Result<Vec<Option<ObstacleLoad>>, SceneError> {
+        self.evaluate()?;
+        Ok(self.hydrodynamics().obstacle_loads())
     }
 
     /// Returns the shear stress of the fluid on the lower and on the upper wall of a channel (stress), positive along

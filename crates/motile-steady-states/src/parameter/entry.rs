@@ -30,12 +30,14 @@ pub(super) fn entry(parameter: Parameter, setup: &mut Setup) -> Option<&mut f64>
             _ => None,
         },
         Parameter::PressureGradient | Parameter::Flux => match &mut setup.region {
-            Region::Channel { drive, .. } | Region::Tube { drive, .. } => match (parameter, drive) {
-                (Parameter::PressureGradient, Drive::Gradient(value)) | (Parameter::Flux, Drive::Flux(value)) => {
-                    Some(value)
+            Region::Channel { drive, .. } | Region::SlipChannel { drive, .. } | Region::Tube { drive, .. } => {
+                match (parameter, drive) {
+                    (Parameter::PressureGradient, Drive::Gradient(value)) | (Parameter::Flux, Drive::Flux(value)) => {
+                        Some(value)
+                    }
+                    _ => None,
                 }
-                _ => None,
-            },
+            }
             _ => None,
         },
         Parameter::LowerWall => setup.flow.wall_velocity.as_mut().map(|[lower, _]| lower),

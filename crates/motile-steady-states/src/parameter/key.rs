@@ -42,7 +42,7 @@ impl Parameter {
             },
             Self::NucleusRadius => "rigid-bodies.0.shape.round.radius",
             Self::Width => "region.channel.width",
-            Self::Length if matches!(setup.region, Region::Channel { .. }) => "region.channel.length",
+            Self::Length if matches!(setup.region.without_slip(), Region::Channel { .. }) => "region.channel.length",
             Self::BoxX => "region.box.lengths.0",
             Self::BoxY => "region.box.lengths.1",
             Self::TubeRadius => "region.tube.radius",

@@ -107,3 +107,25 @@ fn thresholds_and_branches_are_the_same_in_other_units() {
         assert!(errors.iter().all(|error| *error < 1e-7), "{here:?} {there:?}");
     }
 }
+
+/// Differences by a parameter far below its natural size must not reach across zero. With the default values, a droplet
+/// with a radius of 1e-6 is such a scene: particles diffuse along it at once, so it rests, and what has no value has
+/// none in the table either.
+#[test]
+fn sensitivities_exist_if_values_are_far_below_their_natural_size() {
+    let mut setup = Setup { region: Region::Box { lengths: [6.0, 6.0] }, ..Setup::default() };
+    setup.droplets[0] = DropletSetup::contractile(-2.0, 10.0);
+    setup.droplets[0].shape = DropletShape::Round { radius: 1e-6 };
+    let rest = SteadyState::uniform(&setup).expect("a state");
+    let leading = rest.spectrum().expect("a spectrum").modes[0].clone();
+    let found = rest.sensitivities_with(&[leading]).expect("sensitivities");
+    let of = |observable: &str, parameter| found.derivative(observable, parameter).expect("an entry");
+    assert!((of("perimeter", Parameter::Radius) / std::f64::consts::TAU - 1.0).abs() < 1e-9);
+    // All rates are those of tension over viscosity and radius.
+    let by_radius = found.logarithmic("growth_rate", Parameter::Radius).expect("a rate");
+    assert!((by_radius + 1.0).abs() < 1e-5, "{by_radius}");
+    assert_eq!(found.logarithmic("speed", Parameter::Activity), None);
+    assert_eq!(found.logarithmic("stresslet", Parameter::BoxX), None);
+    let text = found.to_string();
+    assert!(text.contains("1.000e-6"), "{text}");
+}

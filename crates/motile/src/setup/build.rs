@@ -9,6 +9,7 @@ use motile_base::{Region, Vec2, internal::spectrum::is_product, polygon};
 use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
 use motile_interior::{GelInBox, ParticlesInDroplet};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
+use space_droplets::{SpaceBody, SpaceFluid};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StokesSolver, WallMotion, WallTreatment};
 
 use super::{
@@ -39,6 +40,8 @@ pub struct Built {
     pub gels: Vec<Handle<GelInBox>>,
     /// The interfaces that are periodic along x.
     pub interfaces: Vec<Handle<ActiveInterface>>,
+    /// The droplets in three dimensions without symmetry ([`Setup::lacks_symmetry`]), which are one body.
+    pub space: Option<Handle<SpaceBody>>,
 }
 
 /// Accuracy of layers next to solids, whose inner points feel them through a grid.
@@ -64,7 +67,9 @@ impl Setup {
     /// particles would collapse to a point ([`SetupError::Value`]); shapes that cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
-        let built = if self.suspension.is_empty() {
+        let built = if self.lacks_symmetry() {
+            self.assembled_in_space()?
+        } else if self.suspension.is_empty() {
             self.assembled(self.droplets.len())?
         } else {
             let placed = self.placed()?;
@@ -119,7 +124,7 @@ impl Setup {
         if self.mirror_symmetric || self.region.is_axisymmetric() {
             scene = scene.held_symmetric()?;
         }
-        Ok(Built { scene, droplets, solids, rigid_bodies, shells, fibres, gels, interfaces })
+        Ok(Built { scene, droplets, solids, rigid_bodies, shells, fibres, gels, interfaces, space: None })
     }
 
     /// Returns the particles that diffuse inside a droplet, made to be the body `host`.
@@ -211,6 +216,7 @@ impl Setup {
             None => made,
         };
         let made = made.with_cortex(droplet.cortex)?.with_friction(droplet.friction)?;
+        let made = made.with_wall_friction(droplet.wall_friction)?;
         let made = made.with_body_force(droplet.body_force.into())?.with_force(droplet.force.into())?;
         Ok(match droplet.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
@@ -273,6 +279,7 @@ impl Setup {
     /// Returns an error for a region that the method does not have, lengths that do not hold a whole number of cells.
     pub fn flow(&self) -> Result<AnyFlow, SetupError> {
         Ok(match &self.method {
+            Method::Harmonics(_) => Box::new(SpaceFluid::new(self.viscosity)?),
             Method::Integral(method) => self.integrals(method)?,
             Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => {
                 let flow = ImmersedLayers::new(

@@ -35,6 +35,9 @@ impl Setup {
     pub fn check(&self) -> Result<(), SetupError> {
         let top = Checked { place: "" };
         top.positive("viscosity", self.viscosity)?;
+        if self.lacks_symmetry() {
+            return self.check_space();
+        }
         self.check_friction()?;
         match self.region {
             Region::Tube { radius, .. } => {
@@ -72,6 +75,11 @@ impl Setup {
             Method::Integral(integral) => integral.check("method.integral")?,
             Method::Layers(layers) => self.check_layers(layers)?,
             Method::Grid(grid) => self.check_grid(grid)?,
+            Method::Harmonics(_) => {
+                let remedy = "spherical harmonics compute droplets in unbounded fluid in three dimensions. Use \
+                              region = \"space\", or the method integral";
+                return top.refuse("method", &"harmonics", remedy);
+            }
         }
         if let Some(tolerance) = self.tolerance {
             let [least, most] = TOLERANCES;
@@ -87,6 +95,23 @@ impl Setup {
         if !self.walls.is_empty() {
             self.computed("rigid walls that stand in a channel", &[MethodKind::Integral])?;
         }
+        self.check_steps()?;
+        top.finite("least-gap", self.least_gap)?;
+        for (number, body) in self.bodies() {
+            self.able(body)?;
+            body.check(&Checked { place: &format!("{}[{number}]", body.kind()[0]) }, self)?;
+        }
+        self.check_balance()?;
+        self.check_suspensions()?;
+        for (number, wall) in self.walls.iter().enumerate() {
+            wall.check(&format!("walls[{number}]"), self)?;
+        }
+        self.check_correction()
+    }
+
+    /// Refuses steps, integrators and repulsions that cannot be used.
+    pub(super) fn check_steps(&self) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
         let (key, value) = match self.step {
             StepSize::Fixed(dt) => ("step.fixed", dt.to_string()),
             StepSize::OfLimit(part) => ("step.of-limit", part.to_string()),
@@ -101,17 +126,7 @@ impl Setup {
             top.positive("repulsion.strength", repulsion.strength())?;
             top.positive("repulsion.range", repulsion.range())?;
         }
-        top.finite("least-gap", self.least_gap)?;
-        for (number, body) in self.bodies() {
-            self.able(body)?;
-            body.check(&Checked { place: &format!("{}[{number}]", body.kind()[0]) }, self)?;
-        }
-        self.check_balance()?;
-        self.check_suspensions()?;
-        for (number, wall) in self.walls.iter().enumerate() {
-            wall.check(&format!("walls[{number}]"), self)?;
-        }
-        self.check_correction()
+        Ok(())
     }
 
     /// Refuses friction of the fluid that is out of its range, or that the method does not have.
@@ -141,7 +156,6 @@ impl Setup {
         for (number, length) in slip.into_iter().enumerate() {
             checked.not_negative(&format!("slip[{number}]"), length)?;
         }
-        self.computed("walls with slip", &[MethodKind::Integral, MethodKind::Grid])?;
         if let Method::Grid(GridMethod { solver: GridSolver::Projection | GridSolver::LaggedProjection, .. }) =
             self.method
         {

@@ -33,6 +33,13 @@ pub struct DropletSetup {
     pub centre: [f64; 2],
     /// Direction of swimming at the start (radians from the x axis), by which the shape is turned.
     pub angle: f64,
+    /// Centre in three dimensions (length), in place of `centre`. The scene is then computed without symmetry.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<[f64; 3]>,
+    /// Direction of swimming at the start in three dimensions, a vector of any length, in place of `angle`. The scene
+    /// is then computed without symmetry.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heading: Option<[f64; 3]>,
     /// Viscosity of the droplet (stress times time); `None` for the viscosity of the fluid around it.
     #[doc(alias("viscosity ratio", "viscosity contrast"))]
     pub viscosity: Option<f64>,
@@ -49,6 +56,10 @@ pub struct DropletSetup {
     /// Friction xi of the interface with a substrate, of the force `-xi v` per length (force times time per length
     /// squared), v the velocity of the fluid on it.
     pub friction: f64,
+    /// Viscosity of the film between the interface and the straight walls of a channel (stress times time). Its
+    /// thickness is the distance d to each wall. The force `-wall-friction v/d` per length resists the velocity v along
+    /// the interface.
+    pub wall_friction: f64,
     /// Force on the fluid inside per area (force per length squared), in three dimensions per volume. For example, it
     /// is the weight: density minus density of the fluid around it, times g. In the plane it is refused, because
     /// nothing holds a fluid that is pushed.
@@ -83,12 +94,15 @@ impl Default for DropletSetup {
             name: "droplet".to_owned(),
             centre: [0.0, 0.0],
             angle: 0.0,
+            position: None,
+            heading: None,
             viscosity: None,
             tension: 10.0,
             bending: 0.0,
             reference_curvature: 0.0,
             cortex: Cortex::default(),
             friction: 0.0,
+            wall_friction: 0.0,
             body_force: [0.0; 2],
             force: [0.0; 2],
             motion: Motion::default(),
@@ -354,6 +368,7 @@ pub enum DropletShape {
 /// Shape of a squeezed circle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Squeezed {
     /// An ellipse.
     Ellipse,
@@ -449,6 +464,11 @@ impl BodySetup for DropletSetup {
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
         checked.all_finite("centre", &self.centre)?;
         checked.finite("angle", self.angle)?;
+        let unused = [("position", "centre", self.position), ("heading", "angle", self.heading)];
+        for (key, other, value) in unused {
+            let remedy = format!("three numbers need region = \"space\". Use {other} in this region");
+            checked.refuse_if(value.is_some(), key, format!("{:?}", value.unwrap_or_default()), remedy)?;
+        }
         checked.positive("viscosity", self.viscosity)?;
         checked.not_negative("tension", self.tension)?;
         checked.not_negative("bending", self.bending)?;
@@ -459,7 +479,7 @@ impl BodySetup for DropletSetup {
         let remedy = "bending stiffness exists in two dimensions only. Remove the key";
         let plane = self.bending == 0.0 || !setup.region.is_axisymmetric();
         checked.require(plane, "bending", self.bending, remedy)?;
-        check_resistance(self.cortex, self.friction, self.particles.is_some(), checked, setup)?;
+        check_resistance(self.cortex, [self.friction, self.wall_friction], self.particles.is_some(), checked, setup)?;
         let carried = self.motion == Motion::WithFluid;
         if !self.cortex.is_none()
             && let Method::Grid(grid) = &setup.method
@@ -530,7 +550,7 @@ impl DropletShape {
 /// Refuses a cortex and friction of an interface, with particles or without, that cannot be.
 pub(super) fn check_resistance(
     cortex: Cortex,
-    friction: f64,
+    [friction, wall_friction]: [f64; 2],
     carries: bool,
     checked: &Checked<'_>,
     setup: &Setup,
@@ -551,7 +571,14 @@ pub(super) fn check_resistance(
     let remedy = "a line in two dimensions has no shear along itself. Remove the key, or use the region space or tube";
     checked.require(!plane || shear_viscosity == 0.0, "cortex.shear-viscosity", shear_viscosity, remedy)?;
     let remedy = "friction with a substrate exists in two dimensions only. Remove the key";
-    checked.require(plane || friction == 0.0, "friction", friction, remedy)
+    checked.require(plane || friction == 0.0, "friction", friction, remedy)?;
+    checked.not_negative("wall-friction", wall_friction)?;
+    if wall_friction > 0.0 {
+        let remedy = "it needs the straight walls of a channel, at rest. Use region.channel, or remove the key";
+        let straight = setup.region.drive().is_some() && setup.walls.is_empty() && setup.flow.wall_velocity.is_none();
+        checked.require(plane && straight, "wall-friction", wall_friction, remedy)?;
+    }
+    Ok(())
 }
 
 /// Refuses points of a shape under that key.

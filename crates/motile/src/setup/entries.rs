@@ -24,7 +24,7 @@ impl Setup {
             region => region,
         };
         let method = match self.method {
-            Method::Integral(integral) => Method::Integral(integral),
+            Method::Integral(_) | Method::Harmonics(_) => self.method,
             Method::Layers(LayersMethod { nodes, elements, .. }) => {
                 Method::Layers(LayersMethod { nodes, elements, ..LayersMethod::default() })
             }

@@ -120,13 +120,39 @@ pub enum FibreShape {
         height: f64,
     },
     /// Files of other programs, with paths relative to the scene file: `name.vertex`, and `name.spring`, `name.beam`
-    /// and `name.target` if they exist ([`FibreFiles`]).
+    /// and `name.target` if they exist ([`FibreFiles`]). When the scene is read, their contents take their place
+    /// ([`Setup::with_files`]).
     Files(String),
+    /// The contents of such files.
+    Contents {
+        /// Of the file of nodes.
+        vertex: String,
+        /// Of the file of springs.
+        spring: String,
+        /// Of the file of beams; empty without one.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        beam: String,
+        /// Of the file of targets; empty without one.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        target: String,
+    },
+}
+
+impl FibreShape {
+    /// Replaces files, whose paths are relative to that directory, by their contents.
+    pub(super) fn embed(&mut self, directory: &Path) -> Result<(), SetupError> {
+        if let Self::Files(name) = self {
+            let [vertex, spring, beam, target] = FibreFiles::texts(&directory.join(&*name))?;
+            *self = Self::Contents { vertex, spring, beam, target };
+        }
+        Ok(())
+    }
 }
 
 /// How an end of a fibre is held ([`FibreEnd`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum FibreHold {
     /// Nothing holds it.
     #[default]
@@ -295,6 +321,9 @@ impl FibreSetup {
                 Fibre::periodic(&nodes, Vec2::new(length, 0.0), stretching, bending)?
             }
             FibreShape::Files(name) => FibreFiles::read(Path::new(name))?.fibre()?,
+            FibreShape::Contents { vertex, spring, beam, target } => {
+                FibreFiles::parse([vertex, spring, beam, target])?.fibre()?
+            }
         })
     }
 
@@ -415,12 +444,18 @@ impl FibreSetup {
             FibreShape::Files(name) => {
                 let remedy = "give the common part of the names of its files, such as \"folder/beam\"";
                 checked.refuse_if(name.is_empty(), "shape.files", "\"\"", remedy)?;
-                let from_files = [("stretching", self.stretching), ("bending", self.bending)];
-                let remedy = "the files say it. Remove this key, or change the files";
-                let given = from_files.into_iter().find_map(|(key, value)| Some((key, value?)));
-                given.map_or(Ok(()), |(key, value)| checked.refuse(key, &value, remedy))
+                self.check_of_files(checked)
             }
+            FibreShape::Contents { .. } => self.check_of_files(checked),
         }
+    }
+
+    /// Refuses moduli that the files give.
+    fn check_of_files(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        let from_files = [("stretching", self.stretching), ("bending", self.bending)];
+        let remedy = "the files say it. Remove this key, or change the files";
+        let given = from_files.into_iter().find_map(|(key, value)| Some((key, value?)));
+        given.map_or(Ok(()), |(key, value)| checked.refuse(key, &value, remedy))
     }
 }
 

@@ -50,6 +50,9 @@ pub struct FieldsSetup {
     /// Field that is added to the rate of unbinding (1/time) of an exchange with a well-mixed inside.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unbinding: Vec<FieldEntry>,
+    /// Field that is added to the friction with a substrate (force times time per length squared).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub friction: Vec<FieldEntry>,
 }
 
 /// An entry of a field: one of the kinds, and a factor that depends on time.
@@ -256,9 +259,15 @@ impl FieldEntry {
 }
 
 impl FieldsSetup {
-    fn named(&self) -> [(&'static str, &Vec<FieldEntry>); 4] {
-        let Self { tension, activity, binding, unbinding } = self;
-        [("tension", tension), ("activity", activity), ("binding", binding), ("unbinding", unbinding)]
+    fn named(&self) -> [(&'static str, &Vec<FieldEntry>); 5] {
+        let Self { tension, activity, binding, unbinding, friction } = self;
+        [
+            ("tension", tension),
+            ("activity", activity),
+            ("binding", binding),
+            ("unbinding", unbinding),
+            ("friction", friction),
+        ]
     }
 
     /// Returns true if there are no fields.
@@ -284,6 +293,7 @@ impl FieldsSetup {
             activity: sum(&self.activity)?,
             binding: sum(&self.binding)?,
             unbinding: sum(&self.unbinding)?,
+            friction: sum(&self.friction)?,
         })
     }
 
@@ -296,6 +306,9 @@ impl FieldsSetup {
     ) -> Result<(), SetupError> {
         let remedy = "without particles there is no activity. Use fields.tension, or give it particles";
         checked.refuse_if(particles.is_none() && !self.activity.is_empty(), "fields.activity", "given", remedy)?;
+        let graded = setup.region.is_axisymmetric() && !self.friction.is_empty();
+        let remedy = "friction with a substrate exists in two dimensions only. Remove the key";
+        checked.refuse_if(graded, "fields.friction", "given", remedy)?;
         let exchange = particles.and_then(|particles| particles.exchange);
         let mixed = exchange.is_some_and(|exchange| exchange.diffusion_inside.is_none());
         for (name, entries) in self.named() {

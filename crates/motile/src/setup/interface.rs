@@ -59,6 +59,9 @@ pub struct InterfaceSetup {
     /// Friction xi of the interface with a substrate, of the force `-xi v` per length (force times time per length
     /// squared), v the velocity of the fluid on it.
     pub friction: f64,
+    /// Viscosity of the film between the interface and the straight walls of a channel (stress times time), see
+    /// [`crate::setup::DropletSetup::wall_friction`].
+    pub wall_friction: f64,
     /// Motion of the markers along the interface; across it they move with the fluid.
     pub motion: Motion,
     /// Area between the interface and a horizontal line restored to the initial one after each step.
@@ -139,6 +142,7 @@ impl Default for InterfaceSetup {
             tension: 10.0,
             cortex: Cortex::default(),
             friction: 0.0,
+            wall_friction: 0.0,
             motion: Motion::default(),
             area_constraint: true,
             shape: InterfaceShape::default(),
@@ -233,6 +237,7 @@ impl Setup {
             made = made.with_noise(noise.noise()?.with_stream(INTERFACES + number as u64))?;
         }
         let made = made.with_cortex(interface.cortex)?.with_friction(interface.friction)?;
+        let made = made.with_wall_friction(interface.wall_friction)?;
         Ok(match interface.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
@@ -290,7 +295,7 @@ impl BodySetup for InterfaceSetup {
             }
         }
         checked.not_negative("tension", self.tension)?;
-        check_resistance(self.cortex, self.friction, self.particles.is_some(), checked, setup)?;
+        check_resistance(self.cortex, [self.friction, self.wall_friction], self.particles.is_some(), checked, setup)?;
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
@@ -315,7 +320,11 @@ impl BodySetup for InterfaceSetup {
         }
         self.gel.map_or(Ok(()), |gel| gel.check_in_layer(checked, self, setup))?;
         self.fields.check(checked, self.particles.as_ref(), setup)?;
-        for (name, entries) in [("tension", &self.fields.tension), ("activity", &self.fields.activity)] {
+        for (name, entries) in [
+            ("tension", &self.fields.tension),
+            ("activity", &self.fields.activity),
+            ("friction", &self.fields.friction),
+        ] {
             let steep = entries.iter().position(|entry| entry.gradient.is_some_and(|it| it.slope[0] != 0.0));
             let remedy = "a slope along an interface across the period would jump at its end. Use a wave, or 0";
             let key = format!("fields.{name}[{}].gradient.slope[0]", steep.unwrap_or(0));

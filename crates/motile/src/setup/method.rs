@@ -4,7 +4,7 @@ use ib_core::AnyKernel;
 use motile_boundary_integrals::Settings;
 use serde::{Deserialize, Serialize};
 
-use super::checked::Checked;
+use super::{HarmonicsMethod, checked::Checked};
 use crate::SetupError;
 
 /// Fewest and most markers of an interface, which are as many as its elements.
@@ -23,7 +23,7 @@ pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_ELEMENTS as f64]
 /// | elastic solids | | surface exact, second order | first order, uncorrected |
 /// | fibres | free, in the plane, one viscosity | first order | first order |
 /// | gels | | second order | second order, uncorrected first |
-/// | slip along straight walls | spectral | | as droplets, some cells away |
+/// | slip along straight walls | spectral | as droplets; else some cells away | as droplets, some cells away |
 /// | friction of the fluid | | | second order, uncorrected first |
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -36,6 +36,8 @@ pub enum Method {
     Layers(LayersMethod),
     /// The immersed boundary method on a grid ([`ib_core::ImmersedBoundary`], [`ib_core::SmearedContrast`]).
     Grid(GridMethod),
+    /// Spherical harmonics ([`space_droplets`]), for droplets in three dimensions without symmetry.
+    Harmonics(HarmonicsMethod),
 }
 
 impl Default for Method {
@@ -52,6 +54,7 @@ impl Method {
             Self::Integral(_) => MethodKind::Integral,
             Self::Layers(_) => MethodKind::Layers,
             Self::Grid(_) => MethodKind::Grid,
+            Self::Harmonics(_) => MethodKind::Harmonics,
         }
     }
 
@@ -62,6 +65,8 @@ impl Method {
                 Ok([*nodes, *elements])
             }
             Self::Grid(grid) => Err(grid),
+            // A great circle has waves up to the degree.
+            Self::Harmonics(HarmonicsMethod { degree }) => Ok([2 * degree, 2 * degree]),
         }
     }
 
@@ -69,7 +74,7 @@ impl Method {
     #[must_use]
     pub fn spacing(&self) -> Option<f64> {
         match self {
-            Self::Integral(_) => None,
+            Self::Integral(_) | Self::Harmonics(_) => None,
             Self::Layers(layers) => Some(layers.spacing),
             Self::Grid(grid) => Some(grid.spacing),
         }
@@ -86,6 +91,8 @@ pub enum MethodKind {
     Layers,
     /// Immersed boundaries on a grid.
     Grid,
+    /// Spherical harmonics.
+    Harmonics,
 }
 
 impl MethodKind {
@@ -96,6 +103,7 @@ impl MethodKind {
             Self::Integral => "integral",
             Self::Layers => "layers",
             Self::Grid => "grid",
+            Self::Harmonics => "harmonics",
         }
     }
 }

@@ -23,8 +23,10 @@ mod particles_entry;
 mod places;
 mod rigid_body;
 mod scales;
+mod shapes;
 mod shell;
 mod solid;
+mod space;
 mod strays;
 mod suspension;
 mod wall;
@@ -49,6 +51,7 @@ pub use shell::ShellSetup;
 pub use solid::{
     ActiveSpringsSetup, Hold, Material, MaxwellSetup, MeshKind, SolidOutline, SolidSetup, SurfaceElasticitySetup,
 };
+pub use space::HarmonicsMethod;
 pub use suspension::{Arrangement, Distribution, Headings, SuspensionSetup};
 pub use wall::WallSetup;
 
@@ -215,10 +218,12 @@ impl Setup {
     }
 
     /// Returns a number (hexadecimal) that distinguishes descriptions of different physics, places or resolution, but
-    /// not of different time steps. FNV-1a of the printed description. A resumed run compares [`Setup::entries`].
+    /// not of different time steps. FNV-1a of the printed description, in which the contents of files take their place
+    /// if they can be read. A resumed run compares [`Setup::entries`].
     #[must_use]
     pub fn fingerprint(&self) -> String {
-        Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..self.clone() }.hash()
+        let read = self.clone().with_files(std::path::Path::new("")).unwrap_or_else(|_| self.clone());
+        Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..read }.hash()
     }
 
     /// Returns the origin of the results of this description: the version of motile and [`Setup::fingerprint`]. Files

@@ -1,7 +1,7 @@
 //! Descriptions of rigid bodies that move or are held.
 
 use elastic_solids::RigidBody;
-use motile_base::{Region, Vec2};
+use motile_base::{Region, Vec2, internal::told};
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -130,11 +130,14 @@ impl BodySetup for RigidBodySetup {
         let count = match &setup.method {
             Method::Grid(grid) => {
                 let (wanted, most) = (FEWEST * APART * grid.spacing, curve.perimeter());
+                // Two digits, rounded down so that the remedy works.
+                let largest = most / (FEWEST * APART);
+                let unit = 10_f64.powf(largest.log10().floor() - 1.0);
                 let remedy = format!(
-                    "{} is too small for this grid, which holds it by {FEWEST} markers or more. Use a spacing of {:.1e} \
+                    "{} is too small for this grid, which holds it by {FEWEST} markers or more. Use a spacing of {} \
                      or less, or a larger body",
                     self.name,
-                    most / (FEWEST * APART)
+                    told((largest / unit).floor() * unit)
                 );
                 Checked { place: "method.grid" }.refuse_if(wanted > most, "spacing", grid.spacing, remedy)?;
                 setup.grid_markers(&curve, &self.name, APART * grid.spacing)?

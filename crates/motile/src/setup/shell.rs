@@ -5,7 +5,7 @@ use elastic_solids::{BendingMeasure, Shell};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    DropletShape, Setup,
+    DropletShape, Method, Setup,
     body::{BodySetup, Planned},
     checked::Checked,
 };
@@ -33,6 +33,8 @@ pub struct ShellSetup {
     pub stretching: f64,
     /// Modulus of bending (force times length squared).
     pub bending: f64,
+    /// Viscosity with which it resists stretching (force times time).
+    pub cortex_viscosity: f64,
     /// Measure of bending in its energy.
     pub measure: BendingMeasure,
     /// Curvature at which bending is at rest everywhere (1/length); `None` for the curvature of its shape at rest.
@@ -51,6 +53,7 @@ impl Default for ShellSetup {
             rest: None,
             stretching: 10.0,
             bending: 0.1,
+            cortex_viscosity: 0.0,
             measure: BendingMeasure::default(),
             reference_curvature: None,
         }
@@ -79,7 +82,7 @@ impl BodySetup for ShellSetup {
                 Shell::new(&at_rest, self.stretching, self.bending)?.deformed(&markers)?
             }
         };
-        shell = shell.named(&self.name);
+        shell = shell.named(&self.name).with_viscosity(self.cortex_viscosity)?;
         if let Some(curvature) = self.reference_curvature {
             shell = shell.with_reference_curvature(curvature)?;
         }
@@ -89,12 +92,17 @@ impl BodySetup for ShellSetup {
         Ok(Planned::of(shell.with_measure(self.measure)))
     }
 
-    fn check(&self, checked: &Checked<'_>, _: &Setup) -> Result<(), SetupError> {
+    fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
         checked.all_finite("centre", &self.centre)?;
         checked.finite("angle", self.angle)?;
         checked.positive("viscosity", self.viscosity)?;
         checked.not_negative("stretching", self.stretching)?;
         checked.not_negative("bending", self.bending)?;
+        checked.not_negative("cortex-viscosity", self.cortex_viscosity)?;
+        let remedy = "a viscous shell on a grid is not resolved, whose points are not equally spaced. Use the method \
+                      integral or layers";
+        let grid = matches!(setup.method, Method::Grid(_)) && self.cortex_viscosity > 0.0;
+        checked.refuse_if(grid, "cortex-viscosity", self.cortex_viscosity, remedy)?;
         checked.finite("reference-curvature", self.reference_curvature)?;
         self.shape.check(checked, "shape")?;
         self.rest.as_ref().map_or(Ok(()), |rest| rest.check(checked, "rest"))

@@ -427,7 +427,7 @@ impl SolidSetup {
     /// Returns the spacing of its points (length); infinite if there is no grid to give it.
     pub(super) fn spacing(&self, setup: &Setup) -> f64 {
         let usual = match setup.method {
-            Method::Integral(_) => f64::INFINITY,
+            Method::Integral(_) | Method::Harmonics(_) => f64::INFINITY,
             Method::Layers(layers) => 2.0 * layers.spacing,
             Method::Grid(grid) => grid.spacing,
         };

@@ -14,14 +14,7 @@ impl Setup {
     /// Returns an error for points through which no curve goes.
     pub fn distances_from_points(&self) -> Result<Vec<(String, f64)>, SetupError> {
         let mut distances = Vec::new();
-        let droplets = self.droplets.iter().enumerate().map(|(k, body)| (format!("droplets[{k}].shape"), &body.shape));
-        let rigid = self.rigid_bodies.iter().enumerate();
-        let rigid = rigid.map(|(k, body)| (format!("rigid-bodies[{k}].shape"), &body.shape));
-        let shells = self.shells.iter().enumerate().flat_map(|(k, shell)| {
-            let rest = shell.rest.iter().map(move |rest| (format!("shells[{k}].rest"), rest));
-            std::iter::once((format!("shells[{k}].shape"), &shell.shape)).chain(rest)
-        });
-        for (key, shape) in droplets.chain(rigid).chain(shells) {
+        for (key, shape) in self.shapes() {
             if let DropletShape::Points(_) = shape {
                 let (curve, ..) = shape.curve()?;
                 distances.extend(curve.distance_from_polygon().map(|distance| (format!("{key}.points"), distance)));

@@ -92,6 +92,7 @@ impl Default for SuspensionSetup {
 /// Directions of swimming of the droplets of a suspension at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Headings {
     /// Any, equally likely.
     Random,
@@ -102,6 +103,7 @@ pub enum Headings {
 /// Places of the droplets of a suspension at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Arrangement {
     /// Random sequential placement: each droplet is put at a random place that is free. Droplets that find none within
     /// a hundred tries overlap others, and then all are moved apart until the gaps are as wide as required. This can

@@ -91,3 +91,33 @@ fn a_weight_in_the_plane_is_refused() {
     let error = setup.build().expect_err("no speed exists").to_string();
     assert!(error.contains("no speed exists"), "{error}");
 }
+
+/// The mean pressure gradient of a box carries the weight in it: force over area, with both methods.
+#[test]
+fn a_box_bears_a_weight_by_its_mean_pressure_gradient() {
+    let (lengths, force) = ([6.0, 5.0], [2.0, -1.5]);
+    let by_grid = Method::Grid(GridMethod { spacing: 0.1, ..GridMethod::default() });
+    for (method, inside) in [(nodes(48), 1.0), (nodes(48), 10.0), (by_grid, 1.0)] {
+        let droplet = DropletSetup { force, viscosity: Some(inside), ..DropletSetup::passive(1.0) };
+        let at_rest = DropletSetup { centre: [2.9, 2.4], ..DropletSetup::passive(1.0) };
+        let setup = Setup {
+            region: Region::Box { lengths },
+            viscosity: 1.0,
+            method,
+            droplets: vec![droplet, at_rest],
+            ..Setup::default()
+        };
+        let mut scene = setup.build().expect("a good scene").scene;
+        scene.system_mut().evaluate().expect("a good state");
+        let found = scene.system().report().mean_pressure_gradient;
+        for axis in 0..2 {
+            let exact = force[axis] / (lengths[0] * lengths[1]);
+            assert!((found[axis] / exact - 1.0).abs() < 1e-10, "{found:?}");
+        }
+    }
+    // Without a force, it is zero without round-off.
+    let setup = Setup { method: nodes(48), droplets: vec![DropletSetup::active(-2.0)], ..Setup::default() };
+    let mut scene = setup.build().expect("a good scene").scene;
+    scene.system_mut().evaluate().expect("a good state");
+    assert_eq!(scene.system().report().mean_pressure_gradient, [0.0; 2]);
+}

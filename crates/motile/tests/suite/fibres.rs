@@ -369,3 +369,39 @@ fn a_closed_fibre_in_the_plane_moves_as_a_shell() {
     let order = (errors[1] / errors[2]).log2();
     assert!(errors[2].abs() < 1e-3 && order > 1.5, "{exact} {errors:?} {order}");
 }
+
+/// A scene is known by the contents of the files of its fibres, wherever they lie.
+#[test]
+fn fingerprints_follow_the_contents_of_files() {
+    let folders =
+        ["one", "two"].map(|name| std::env::temp_dir().join(format!("motile-fibres-{}-{name}", std::process::id())));
+    let write = |folder: &std::path::Path, stiffness: f64| {
+        std::fs::create_dir_all(folder).unwrap();
+        std::fs::write(folder.join("beam.vertex"), "3\n0.5 0\n0.5 0.1\n0.5 0.2\n").unwrap();
+        std::fs::write(folder.join("beam.spring"), format!("2\n0 1 {stiffness} 0.1\n1 2 500 0.1\n")).unwrap();
+    };
+    let setup = |folder: &std::path::Path| Setup {
+        region: Region::Box { lengths: [4.0, 2.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.125)),
+        droplets: Vec::new(),
+        fibres: vec![FibreSetup {
+            shape: FibreShape::Files(folder.join("beam").to_string_lossy().into_owned()),
+            ..FibreSetup::default()
+        }],
+        ..Setup::default()
+    };
+    write(&folders[0], 500.0);
+    write(&folders[1], 500.0);
+    let [one, two] = [&folders[0], &folders[1]].map(|folder| setup(folder).fingerprint());
+    assert_eq!(one, two);
+    let embedded = setup(&folders[0]).with_files(std::path::Path::new("")).unwrap();
+    assert_eq!(embedded.fingerprint(), one);
+    write(&folders[1], 400.0);
+    assert_ne!(setup(&folders[1]).fingerprint(), one);
+    folders.iter().for_each(|folder| std::fs::remove_dir_all(folder).unwrap());
+    // What is embedded no longer needs the files.
+    let fibre = embedded.build().expect("a scene");
+    assert_eq!(fibre.fibres.len(), 1);
+    #[cfg(feature = "toml")]
+    assert_eq!(Setup::from_toml(&embedded.to_toml().expect("text")).expect("a scene"), embedded);
+}

@@ -20,6 +20,24 @@ const STEPS: usize = 3;
 /// Scenes for the keys that neither the annotated scene nor the examples have, or have as zero.
 const SCENES: &[&str] = &[
     r#"
+region.channel = { length = 8.0, width = 5.0 }
+method.integral = { nodes = 24, elements = 48 }
+[[droplets]]
+centre = [-2.0, -0.3]
+friction = 0.5
+wall-friction = 2.0
+fields.friction = [{ uniform = 0.25 }]
+particles = { activity = -3.0 }
+[[shells]]
+centre = [2.0, -0.5]
+reference-curvature = 3.0
+cortex-viscosity = 3.0
+[[interfaces]]
+height = 1.7
+wall-friction = 1.5
+particles = { activity = -0.5, start.perturbed = { amplitude = 0.1, seed = 1 } }
+"#,
+    r#"
 region.channel = { length = 6.0, width = 3.0, drive = { gradient = -0.5 }, slip = [0.1, 0.3] }
 friction = 30.0
 method.grid = { spacing = 0.1 }
@@ -410,6 +428,20 @@ method.layers = { nodes = 32, elements = 64, spacing = 0.125 }
 height = 1.2
 gel = { spacing = 0.2, anchoring = "planar", material.activity = -50.0 }
 "#,
+    r#"
+region = "space"
+method.harmonics.degree = 4
+flow = { shear = 0.02, extension = 0.01, rotation = 0.03 }
+repulsion = { strength = 500.0, range = 0.5 }
+[[droplets]]
+position = [-1.2, 0.1, 0.3]
+heading = [1.0, 0.2, -0.3]
+particles = { activity = -1.0, excluded-volume.step = 2.0 }
+[[droplets]]
+position = [1.2, 0.0, -0.2]
+viscosity = 50.0
+particles = { activity = -0.5, excluded-volume.step = 2.0, start.perturbed = { amplitude = 0.2, seed = 3 } }
+"#,
 ];
 
 /// Where all markers are after some steps (length), the time, and the steps.
@@ -421,13 +453,20 @@ struct Seen {
 
 fn seen(text: &str) -> Result<Seen, String> {
     let setup = Setup::from_toml(text).map_err(|error| error.to_string())?;
-    let mut scene = setup.build().map_err(|error| error.to_string())?.scene;
+    let Built { mut scene, space, .. } = setup.build().map_err(|error| error.to_string())?;
     let end = 1e3 * setup.placed().map_err(|error| error.to_string())?.time_scale();
     match scene.run(end).most_steps(STEPS).go() {
         Ok(()) | Err(SceneError::TooManySteps { .. }) => {}
         Err(error) => return Err(error.to_string()),
     }
-    let markers = scene.system().markers().positions().iter().map(|place| place.to_array()).collect();
+    let mut markers: Vec<_> = scene.system().markers().positions().iter().map(|place| place.to_array()).collect();
+    if let Some(droplets) = space {
+        let body = scene.body(droplets).map_err(|error| error.to_string())?;
+        for droplet in body.droplets().droplets() {
+            let mesh = droplet.mesh().map_err(|error| error.to_string())?;
+            markers.extend(mesh.points.iter().flat_map(|[x, y, z]| [[*x, *y], [*z, 0.0]]));
+        }
+    }
     Ok(Seen { markers, time: scene.time(), steps: scene.steps() })
 }
 

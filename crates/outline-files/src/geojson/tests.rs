@@ -24,6 +24,12 @@ fn polygons_of_features_and_collections() {
     }
     let line = read(&format!("{{\"type\":\"LineString\",\"coordinates\":{RING}}}")).unwrap();
     assert!(!line[0].closed);
+    let lines = read(&format!("{{\"type\":\"MultiLineString\",\"coordinates\":[{RING},{RING}]}}")).unwrap();
+    assert!(lines.len() == 2 && lines.iter().all(|line| !line.closed && line.points.len() == 5));
+    let list = read(RING).unwrap();
+    assert!(list.len() == 1 && list[0].points[2] == Vec2::new(2.0, 1.0));
+    let nowhere = format!("[{},{{\"type\":\"Feature\",\"geometry\":null,\"properties\":null}}]", feature("null"));
+    assert_eq!(read(&nowhere).unwrap().len(), 1);
 }
 
 #[test]
@@ -32,6 +38,8 @@ fn what_is_no_outline_is_refused() {
     for (text, said) in [
         ("{\"type\":\"Point\",\"coordinates\":[1,2]}", "the type \"Point\" is not an outline"),
         ("{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[0,1]],[[0,0],[1,0],[0,1]]]}", "a polygon has 1 holes"),
+        ("{\"version\":\"5\",\"shapes\":[]}", "are not GeoJSON. Use GeoJSON with geometries"),
+        ("[[0,0],[1,0],[0]]", "position 2 of a geometry cannot be read: it is not [x, y]"),
         ("{\"type\":\"Polygon\"}", "no list of coordinates"),
         ("{\"type\":\"Polygon\",\"coordinates\":[[[0,\"a\"]]]}", "position 0 of a geometry cannot be read"),
         ("{\"type\":", "line 1 cannot be read: "),

@@ -89,5 +89,5 @@ fn unresolved_particles_are_warned_of() {
     sharp.evaluate().unwrap();
     let warnings = sharp.warnings();
     assert!(warnings[0].contains("negative") && warnings[0].contains("Use a degree above 6"), "{warnings:?}");
-    assert!(warnings[1].contains("the highest two degrees of the particles"), "{warnings:?}");
+    assert!(warnings[1].contains("the particles are not resolved: the highest two degrees"), "{warnings:?}");
 }

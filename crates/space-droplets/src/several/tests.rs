@@ -157,3 +157,72 @@ fn droplets_that_overlap_or_are_in_different_fluids_are_refused() {
     assert!(pair.observe(2).unwrap_err().to_string().contains("There are 2"));
     assert!(pair.gap(1, 1).is_err());
 }
+
+/// Two droplets of different viscosities close to each other, with a repulsion.
+fn close_pair(degree: usize, ratios: [f64; 2], gap: f64) -> SpaceDroplets {
+    let drop = |ratio: f64, x: f64| {
+        let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+        let droplet = SpaceDroplet::sphere(degree, 1.0, [ratio, 1.0], law).unwrap();
+        droplet.with_particles(0.1, |s| 1.0 + s[1] - 0.3 * s[2] * s[0]).unwrap().with_position([x, 0.1, 0.0]).unwrap()
+    };
+    SpaceDroplets::new(vec![drop(ratios[0], 0.0), drop(ratios[1], 2.0 + gap)]).unwrap()
+}
+
+#[test]
+fn evaluations_in_steady_state_do_not_allocate() {
+    for ratios in [[1.0, 1.0], [5.0, 0.2]] {
+        let mut pair = close_pair(6, ratios, 0.1).with_repulsion(Repulsion::new(2.0, 0.4).unwrap());
+        pair.evaluate().unwrap();
+        pair.known = false;
+        let counted = allocation_counter::measure(|| pair.evaluate().unwrap());
+        assert_eq!(counted.count_total, 0, "{ratios:?}");
+    }
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn results_of_several_droplets_do_not_depend_on_the_number_of_threads() {
+    let rates = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let pair = close_pair(6, [5.0, 0.2], 0.1);
+            let mut pair = pair.with_repulsion(Repulsion::new(2.0, 0.4).unwrap());
+            pair.evaluate().unwrap();
+            pair.droplets.iter().flat_map(|droplet| droplet.flow.rates.clone()).collect::<Vec<f64>>()
+        })
+    };
+    assert_eq!(rates(1), rates(3));
+}
+
+/// Extreme ratios of the viscosities with a narrow gap, and very low and high degrees.
+#[test]
+fn extreme_droplets_are_computed_or_refused_in_words() {
+    for ratios in [[1e2, 1e-2], [1e-2, 1e-2], [1e2, 1e2]] {
+        let velocities = [8, 12].map(|degree| {
+            let mut pair = close_pair(degree, ratios, 0.02);
+            [pair.observe(0).unwrap().velocity, pair.observe(1).unwrap().velocity]
+        });
+        let norm = velocities[1].iter().flatten().map(|v| v * v).sum::<f64>().sqrt();
+        let change: f64 = (0..6).map(|i| (velocities[0][i / 3][i % 3] - velocities[1][i / 3][i % 3]).powi(2)).sum();
+        assert!(change.sqrt() < 0.05 * norm, "{ratios:?}: {velocities:?}");
+    }
+    let mut coarse = close_pair(4, [1.0, 1.0], 0.01);
+    assert!(coarse.observe(0).unwrap().speed.is_finite());
+}
+
+/// Swimmers from noise at a very low degree: the run ends and conserves particles.
+#[test]
+fn droplets_start_from_noise() {
+    let drop = |x: f64| {
+        let law = ContractileTension::thesis(10.0, -2.0, 4.0, 100.0).unwrap();
+        let droplet = SpaceDroplet::sphere(4, 1.0, [100.0, 100.0], law).unwrap();
+        let noise = |s: [f64; 3]| (37.0 * s[0] + 11.0 * s[1] * x).sin() + (53.0 * s[2] - 5.0 * s[0]).cos();
+        let droplet = droplet.with_particles(0.1, |s| 100.0 * (1.0 + 0.2 * noise(s))).unwrap();
+        droplet.with_position([x, 0.0, 0.0]).unwrap()
+    };
+    let mut pair = SpaceDroplets::new(vec![drop(-1.2), drop(1.2)]).unwrap();
+    let before = pair.observe(0).unwrap().particles;
+    pair.advance(1.0, StepSize::Adaptive { tolerance: 1e-2 }, &mut RungeKuttaChebyshev::new(), |_| {}).unwrap();
+    let after = pair.observe(0).unwrap();
+    assert!((after.particles / before - 1.0).abs() < 1e-12 && after.speed.is_finite());
+}

@@ -14,6 +14,7 @@ const TERMS: usize = 320;
 pub(super) struct Crowding {
     /// Coefficients b of `t = theta + sum b_k sin(k theta)`, from k = 1.
     waves: Vec<f64>,
+    width: f64,
 }
 
 impl Crowding {
@@ -30,11 +31,16 @@ impl Crowding {
             let sum: f64 = samples.iter().enumerate().map(|(j, value)| value * cosine(j)).sum();
             2.0 * sum / (SAMPLES as f64 * mean * k as f64)
         };
-        Self { waves: (1..=TERMS).map(wave).collect() }
+        Self { waves: (1..=TERMS).map(wave).collect(), width }
+    }
+
+    /// Returns the width.
+    pub(super) fn width(&self) -> f64 {
+        self.width
     }
 
     /// Returns the parameter of a colatitude, and its derivative.
-    fn parameter(&self, theta: f64) -> (f64, f64) {
+    pub(super) fn parameter(&self, theta: f64) -> (f64, f64) {
         let waves = self.waves.iter().enumerate();
         waves.fold((theta, 1.0), |(t, slope), (k, wave)| {
             let (sin, cos) = ((k + 1) as f64 * theta).sin_cos();

@@ -11,7 +11,8 @@ const NOISE: usize = 12;
 const LEAST: f64 = 4.0;
 
 /// Powers of t, |t| <= 1, that approximate `function` to `accuracy`, or to round-off.
-pub(super) fn powers(accuracy: f64, function: impl Fn(f64) -> f64) -> Vec<f64> {
+#[must_use]
+pub fn powers(accuracy: f64, function: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut terms = chebyshev(function);
     let noise = &terms[NODES - NOISE..];
     let accuracy = noise.iter().map(|term| LEAST * term.abs()).fold(accuracy, f64::max);

@@ -8,16 +8,17 @@ const MORE_TERMS: usize = 30;
 /// The even eigenfunction psi of `-d/dx (1 - x^2) d/dx + c^2 x^2` on |x| <= 1 with the minimum eigenvalue, over its
 /// value at 0.
 #[derive(Debug, Clone)]
-pub(super) struct Prolate {
+pub struct Prolate {
     /// Coefficients of the Legendre polynomials of even degree.
     coefficients: Vec<f64>,
     /// Minus the second derivative at 0, which is the eigenvalue.
-    pub(super) bend: f64,
+    pub bend: f64,
 }
 
 impl Prolate {
     /// Creates the function with the parameter c.
-    pub(super) fn new(c: f64) -> Self {
+    #[must_use]
+    pub fn new(c: f64) -> Self {
         let count = c as usize + MORE_TERMS;
         let square = c * c;
         let mut matrix = DMatrix::<f64>::zeros(count, count);
@@ -43,7 +44,8 @@ impl Prolate {
     }
 
     /// Returns the value at x, |x| <= 1.
-    pub(super) fn at(&self, x: f64) -> f64 {
+    #[must_use]
+    pub fn at(&self, x: f64) -> f64 {
         let (mut before, mut now, mut sum) = (1.0, x, 0.0);
         for (i, coefficient) in self.coefficients.iter().enumerate() {
             sum += coefficient * before;

@@ -46,6 +46,17 @@ struct Slip {
     v: Complex64,
 }
 
+impl Slip {
+    /// Returns the velocity at a distance from a wall, times the wave number, of the flow that cancels this one at the
+    /// wall; `side` is 1 above the lower wall and -1 below the upper one.
+    fn image(&self, distance: f64, side: f64) -> Self {
+        let turn = I * side;
+        let bend = (self.u + turn * self.v) * distance;
+        let decay = (-distance).exp();
+        Self { u: (bend - self.u) * decay, v: (turn * bend - self.v) * decay }
+    }
+}
+
 /// Coefficients of some modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Coefficients {
@@ -64,11 +75,13 @@ struct Factors {
     odd: [f64; 4],
 }
 
-/// The flow that the walls correct: the flow of rows of images along the walls, alone or `reach` (length) above the
-/// upper wall and below the lower one again, in a box of that much more than the width.
+/// The flow that the walls correct: the flow of rows of images along the walls. It stands alone, or with the images in
+/// each wall that correct it there. In a box, it is repeated `reach` (length) above the upper wall and below the lower
+/// one, at a period of that much more than the width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Uncorrected {
     Row,
+    Images,
     Box { reach: f64 },
 }
 
@@ -173,6 +186,12 @@ impl WallModes {
         (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
     }
 
+    /// Returns the number of modes of the present sums.
+    #[cfg(test)]
+    pub(crate) fn count_now(&self) -> usize {
+        self.modes
+    }
+
     /// Computes the sums over points with `source(j)` = (q, p); the lower wall takes the conjugate of q.
     fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64) + Sync) {
         let (k, exponent, modes) = (self.k, self.exponent, self.modes);
@@ -245,6 +264,10 @@ impl WallModes {
                 self.mean[1] += c * slope;
             }
         }
+        if self.uncorrected == Uncorrected::Images {
+            // The means over x of the images, -1 + c times the distance.
+            self.mean[0] += (2.0 - 4.0 * c * h) * s0;
+        }
         if let Uncorrected::Box { reach } = self.uncorrected {
             // The mean over x of a row, 1 - c |y|, less that of the box, c (H/6 - |y| + y^2/H).
             let height = 2.0 * h + reach;
@@ -313,6 +336,7 @@ impl WallModes {
     /// Adds the velocities at the walls, `slip(sums, side, mode)` being those by sums over sources on one side of it, 1
     /// for those below.
     fn add_slips(&mut self, slip: impl Fn([Complex64; 2], f64, f64) -> [Complex64; 2]) {
+        let boxed = matches!(self.uncorrected, Uncorrected::Box { .. });
         for (wall, side) in [(0, 1.0), (1, -1.0)] {
             let length = self.slipping.as_ref().map_or(0.0, |slipping| slipping.lengths[wall]);
             for n in 0..self.modes {
@@ -322,7 +346,7 @@ impl WallModes {
                 let [u, v] = slip(own, side, mode);
                 slips.u += u;
                 slips.v += v;
-                if self.uncorrected != Uncorrected::Row {
+                if boxed {
                     let [u, v] = slip(other, -side, mode);
                     slips.u += u;
                     slips.v += v;
@@ -334,7 +358,7 @@ impl WallModes {
                         slip([plain * -k, (mixed + plain) * -k], side, mode)[0]
                     };
                     let mut outwards = slope(own, side);
-                    if self.uncorrected != Uncorrected::Row {
+                    if boxed {
                         outwards -= slope(other, -side);
                     }
                     self.slips[wall][n].u += outwards * length;
@@ -352,7 +376,12 @@ impl WallModes {
         }
         for n in 0..self.modes {
             let k = self.k * (n + 1) as f64;
-            let [upper, lower] = [self.slips[0][n], self.slips[1][n]];
+            let mut slips = [self.slips[0][n], self.slips[1][n]];
+            if self.uncorrected == Uncorrected::Images {
+                // What the image in one wall leaves at the other one.
+                slips = [slips[1].image(2.0 * k * self.half, 1.0), slips[0].image(2.0 * k * self.half, -1.0)];
+            }
+            let [upper, lower] = slips;
             let (psi_upper, psi_lower) = (-I * upper.v / k, -I * lower.v / k);
             let (slope_upper, slope_lower) = (-upper.u, -lower.u);
             let (pe, po) = (0.5 * (psi_upper + psi_lower), 0.5 * (psi_upper - psi_lower));

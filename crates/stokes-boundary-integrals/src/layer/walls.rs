@@ -4,6 +4,7 @@ use std::{array, f64::consts::TAU, ops::Range};
 
 use num_complex::Complex64;
 
+use super::wall_images::WallImages;
 use crate::{
     LayerError,
     close_weights::reach,
@@ -13,9 +14,9 @@ use crate::{
         Flow, Vectors,
         walls::{Slipping, Uncorrected, WallModes, WallPoints},
     },
-    plan::Plans,
+    plan::{Plan, Plans},
     shares,
-    transforms::REFINEMENT,
+    transforms::{REFINEMENT, Transforms},
 };
 use motile_base::{Drive, ImposedFlow, InputError, Vec2};
 
@@ -29,6 +30,18 @@ const LEAST_GAP: f64 = 0.02;
 /// Most nodes in place of each node that images are summed over: as many as resolve a gap of [`LEAST_GAP`] at a
 /// tolerance of 1e-5.
 const MOST_NODES: usize = 64;
+
+/// Most nodes of all curves for which images in walls are summed in closed form: their factors take 32 MB.
+const MOST_IMAGES: usize = 1000;
+
+/// Cost of the images of a pair of nodes in both walls, over the cost of a source for one mode (measured).
+const PAIR: f64 = 3.5;
+/// Cost of an image that is close to a curve for each node of the curve, over the same cost (measured).
+const CLOSE: f64 = 50.0;
+
+/// Distance in spacings that images of a double layer need in addition, so that the trapezoidal rule is exact to the
+/// tolerance. They fall with the cube of the distance, other kernels more slowly.
+const STEEPER: f64 = 1.0;
 
 /// Thinnest film between a rigid body and a wall in squared distances of nodes times the curvature of the body there:
 /// with fewer nodes in the width of the film, sqrt(2 film/curvature), the speed at which it drains is off by more than
@@ -76,6 +89,9 @@ pub(crate) struct Walls {
     gap: f64,
     /// Points off the curves.
     points: WallPoints,
+    /// Images in closed form, and whether they replace most of the modes for the present shapes.
+    pub(super) images: WallImages,
+    images_used: bool,
     /// Flow of the modes at the nodes.
     flow: Vec<[f64; 2]>,
 }
@@ -102,12 +118,14 @@ impl Walls {
             gap: 0.0,
             flow: Vec::new(),
             points,
+            images: WallImages::new(length, half),
+            images_used: false,
         }
     }
 
     /// Returns true if some sources are taken from fine nodes.
     pub(crate) fn is_refined(&self) -> bool {
-        self.refined.contains(&true)
+        !self.images_used && self.refined.contains(&true)
     }
 
     /// Returns true for a curve whose sources are taken from the fine nodes, so that forces and velocities are needed
@@ -116,11 +134,17 @@ impl Walls {
         self.refined.get(curve).is_some_and(|refined| *refined)
     }
 
-    /// Takes over the present shapes.
+    /// Forgets how the images of earlier shapes were summed.
+    pub(crate) fn clear(&mut self) {
+        self.images_used = false;
+    }
+
+    /// Takes over the present shapes. Images are summed in closed form if `closed`, and if curves are so close to a
+    /// wall that modes would cost more.
     ///
     /// # Errors
     /// Returns an error for a node beyond a wall.
-    pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut Plans) -> Result<(), LayerError> {
+    pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut Plans, closed: bool) -> Result<(), LayerError> {
         self.nodes.clear();
         self.owners.clear();
         self.refined.clear();
@@ -143,28 +167,103 @@ impl Walls {
             self.refined.push(2.0 * least < reach(self.tolerance) * curve.spacing());
             self.gaps.push(least);
         }
-        let (half, nodes) = (self.half, self.owners.len());
+        let half = self.half;
+        self.each_refined(curves, plans, |curve, transforms, gap| {
+            curve.refine(transforms);
+            *gap = narrowest(curve, half, *gap);
+            Ok(())
+        })?;
+        self.nodes.prepare();
+        if closed && self.images_pay(curves) {
+            self.use_images(curves, plans);
+            return Ok(());
+        }
+        Ok(self.use_modes(curves, plans)?)
+    }
+
+    /// Sums the images of the present shapes in closed form.
+    pub(crate) fn use_images(&mut self, curves: &mut [Curve], plans: &mut Plans) {
+        self.images_used = true;
+        self.images.load(curves, STEEPER + reach(self.tolerance));
+        for source in self.images.sources() {
+            let curve = &mut curves[source];
+            curve.refine(&mut plans[curve.plan].transforms);
+        }
+        self.sources.clear();
+        self.source_owners.clear();
+    }
+
+    /// Calls `work` with each curve that has a narrow gap, its transforms and the gap.
+    fn each_refined(
+        &mut self,
+        curves: &mut [Curve],
+        plans: &mut Plans,
+        work: impl Fn(&mut Curve, &mut Transforms, &mut f64) -> Result<(), InputError> + Sync + Send,
+    ) -> Result<(), InputError> {
+        let nodes = self.owners.len();
         let len = shares::curves(curves.len(), nodes);
         let near = self.refined.chunks(len).zip(self.gaps.chunks_mut(len));
-        let reach = reach(self.tolerance);
         let mut results = array::from_fn::<_, { shares::MOST }, _>(|_| Ok(()));
         let pieces = curves.chunks_mut(len).zip(plans.pieces()).zip(near).zip(&mut results);
         shares::each_of(nodes, pieces, |(((curves, plans), (refined, gaps)), result)| {
-            let all = curves.iter_mut().zip(*refined).zip(&mut **gaps);
-            **result = all.filter(|((_, refined), _)| **refined).try_for_each(|((curve, _), gap)| {
+            let mut all = curves.iter_mut().zip(*refined).zip(&mut **gaps).filter(|((_, refined), _)| **refined);
+            **result = all.try_for_each(|((curve, _), gap)| {
                 let transforms = &mut plans[curve.plan].transforms;
-                curve.refine(transforms);
-                *gap = narrowest(curve, half, *gap);
-                curve.refine_for_walls(transforms, factor(reach * curve.spacing(), *gap))?;
-                *gap = narrowest(curve, half, *gap);
-                Ok(())
+                work(curve, transforms, gap)
             });
         });
-        results.into_iter().collect::<Result<(), InputError>>()?;
         self.gap = self.gaps.iter().copied().fold(f64::INFINITY, f64::min);
-        self.nodes.prepare();
+        results.into_iter().collect()
+    }
+
+    /// Sums the images of the present shapes by modes, over as many fine nodes as the gaps need.
+    pub(crate) fn use_modes(&mut self, curves: &mut [Curve], plans: &mut Plans) -> Result<(), InputError> {
+        self.images_used = false;
+        let (half, reach) = (self.half, reach(self.tolerance));
+        self.each_refined(curves, plans, |curve, transforms, gap| {
+            curve.refine_for_walls(transforms, factor(reach * curve.spacing(), *gap))?;
+            *gap = narrowest(curve, half, *gap);
+            Ok(())
+        })?;
         self.load_sources(curves, |refined, number| refined[number]);
         Ok(())
+    }
+
+    /// Returns true if the images of narrow gaps are summed in closed form for the present shapes.
+    pub(crate) fn uses_images(&self) -> bool {
+        self.images_used
+    }
+
+    /// Returns the number of modes of the last sum.
+    #[cfg(test)]
+    pub(crate) fn mode_count(&self) -> usize {
+        self.modes.count_now()
+    }
+
+    /// Returns true if sums of images in closed form cost less than modes, in a channel whose width the nodes resolve.
+    fn images_pay(&self, curves: &[Curve]) -> bool {
+        let (reach, nodes) = (reach(self.tolerance), self.owners.len());
+        if self.slipping.is_some() || nodes > MOST_IMAGES || !self.refined.contains(&true) {
+            return false;
+        }
+        let longest = (2.5 - self.tolerance.ln()) * self.length / TAU;
+        let (mut by_modes, mut by_images) = (0.0, PAIR * (nodes * nodes) as f64);
+        for ((curve, refined), gap) in curves.iter().zip(&self.refined).zip(&self.gaps) {
+            let spacing = curve.spacing();
+            if reach * spacing > 2.0 * self.half || *gap <= LEAST_GAP * spacing {
+                return false;
+            }
+            let factor = if *refined { factor(reach * spacing, *gap) as f64 } else { 1.0 };
+            for z in &curve.nodes.position {
+                for depth in [self.half - (z.im + curve.centre.im), self.half + (z.im + curve.centre.im)] {
+                    by_modes += factor * longest / (depth + self.gap);
+                    if *refined && 2.0 * depth < reach * spacing {
+                        by_images += CLOSE * curve.len() as f64;
+                    }
+                }
+            }
+        }
+        by_images < by_modes
     }
 
     /// Refuses a film between a wall and a rigid body that the nodes of the body do not resolve.
@@ -282,9 +381,15 @@ impl Walls {
         curves: &[Curve],
         from: Range<usize>,
         uncorrected: Uncorrected,
+        plans: &mut [Plan],
         out: &mut [Vectors],
     ) {
-        if !curves.is_empty() {
+        if self.images_used {
+            self.modes.begin(Uncorrected::Images, self.half, self.half, self.tolerance);
+            self.put_forces(curves, from, |_, _| false, self.half);
+            self.images.add_forces(curves, plans, STEEPER + reach(self.tolerance), out);
+            self.add_modes(out);
+        } else if !curves.is_empty() {
             self.modes.begin(uncorrected, self.gap, self.gap, self.tolerance);
             self.put_forces(curves, from, |refined, curve| refined[curve], self.gap);
             self.add_modes(out);
@@ -299,8 +404,16 @@ impl Walls {
         density: Density<'_>,
         fine: &[Complex64],
         (uncorrected, accuracy): (Uncorrected, f64),
+        plans: &mut [Plan],
         out: &mut [Vectors],
     ) {
+        if self.images_used {
+            self.modes.begin(Uncorrected::Images, self.half, self.half, accuracy);
+            self.put_dipoles(curves, density, fine, |_, _| false, (self.half, 1.0));
+            self.images.add_dipoles(curves, plans, STEEPER + reach(self.tolerance), density, out);
+            self.add_modes(out);
+            return;
+        }
         self.modes.begin(uncorrected, self.gap, self.gap, accuracy);
         self.put_dipoles(curves, density, fine, |refined, curve| refined[curve], (self.gap, 1.0));
         self.add_modes(out);
@@ -419,7 +532,8 @@ impl Walls {
             }
         }
         self.modes.solve();
-        self.load_sources(curves, |refined, number| refined[number]);
+        let images = self.images_used;
+        self.load_sources(curves, |refined, number| refined[number] && !images);
     }
 
     /// Adds the contribution of the walls to the flow at the point of that number.

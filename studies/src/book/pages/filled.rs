@@ -77,12 +77,28 @@ fn value(mark: &str, entries: &[Entry]) -> Result<String> {
             Ok(format!("{missed} of {ranges}"))
         }
         "counts" => Ok(counts(entries)),
+        "costs" => costs(of_chapter(entries, rest)),
         "sections" => {
             let sections = of_chapter(entries, rest).map(|entry| section(entry, entries));
             Ok(sections.collect::<Result<Vec<_>>>()?.join("\n"))
         }
         _ => number(of(first)?, mark),
     }
+}
+
+/// A table of the processor time of each figure's data and of its runs that failed.
+fn costs<'a>(entries: impl Iterator<Item = &'a Entry>) -> Result<String> {
+    let mut rows = [String::from("| |"), String::from("|---|"), String::from("| processor time (s) |")];
+    let mut failed = String::from("| failed runs |");
+    for entry in entries {
+        let kept = entry.kept.as_ref().with_context(|| format!("figure {} was not made yet", entry.number))?;
+        let seconds = entry.figure.processor.with_context(|| format!("figure {} has no `processor`", entry.number))?;
+        rows[0] += &format!(" {} |", entry.number);
+        rows[1] += "---|";
+        rows[2] += &format!(" {seconds:.0} |");
+        failed += &format!(" {} of {} |", kept.failed(), kept.runs);
+    }
+    Ok(rows.join("\n") + "\n" + &failed)
 }
 
 fn of_chapter<'a>(entries: &'a [Entry], chapter: &'a str) -> impl Iterator<Item = &'a Entry> {

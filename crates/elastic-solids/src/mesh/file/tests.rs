@@ -360,6 +360,13 @@ fn what_is_wrong_is_told_with_a_remedy() {
         (format!("{nodes}1 1 2 0 1 1 2\n{close}"), "it has no triangles. Mesh the surface"),
         (format!("{nodes}1 2 2 0 1 1 1 2\n{close}"), "triangle"),
         (format!("{}1 2 2 0 1 1 2 3\n{close}", nodes.replace("3 1 1 0", "3 1 1 5")), "do not lie in one plane"),
+        (
+            format!(
+                "{grid}DATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 -1\n\
+                 CELL_TYPES 1\n5\n"
+            ),
+            "-1 is not the number of a point",
+        ),
         (format!("{grid}DATASET POLYDATA\n"), "it is a polydata, not an unstructured grid"),
         (format!("{grid}DATASET UNSTRUCTURED_GRID\nPOINTS 99 float\n0 0\n"), "297 numbers are announced"),
         ("<VTKFile type=\"PolyData\"/>".to_owned(), "it is not an unstructured grid"),

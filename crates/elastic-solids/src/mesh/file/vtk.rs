@@ -108,10 +108,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, SolidError> {
                     let all = values(&mut at, "int", size)?;
                     let mut rest = all.as_slice();
                     for _ in 0..cells {
-                        let count = rest.first().map_or(0, |count| *count as usize);
+                        let count = rest.first().map_or(Ok(0), |count| index(*count));
+                        let count = count.map_err(|problem| at.error(problem))?;
                         let points = rest.get(1..count.saturating_add(1));
                         let points = points.ok_or_else(|| at.error("a cell has more points than the list"))?;
-                        grid.cells.push(points.iter().map(|point| *point as usize).collect());
+                        let points = points.iter().map(|point| index(*point)).collect::<Result<_, _>>();
+                        grid.cells.push(points.map_err(|problem| at.error(problem))?);
                         rest = &rest[count + 1..];
                     }
                 }
@@ -175,15 +177,21 @@ fn counted(at: &mut Cursor<'_>) -> Result<usize, SolidError> {
     at.count(found)
 }
 
+/// Returns the number of a point or of entries.
+fn index(value: f64) -> Result<usize, String> {
+    let whole = value >= 0.0 && value.fract() == 0.0 && value < 9e15;
+    if whole { Ok(value as usize) } else { Err(format!("{value} is not the number of a point")) }
+}
+
 /// Returns the points of cells from the list of all and the ends of the cells in it.
 pub(super) fn cells_of(connectivity: &[f64], ends: &[f64]) -> Result<Vec<Vec<usize>>, String> {
     let mut start = 0;
     let cell = |end: &f64| {
-        let end = *end as usize;
+        let end = index(*end)?;
         let points =
             connectivity.get(start..end).ok_or_else(|| "the ends of the cells do not fit their points".to_owned())?;
         start = end;
-        Ok(points.iter().map(|point| *point as usize).collect())
+        points.iter().map(|point| index(*point)).collect()
     };
     ends.iter().map(cell).collect()
 }

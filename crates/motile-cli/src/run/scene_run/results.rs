@@ -6,7 +6,7 @@ use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::observables::{Convention, Observables, observe};
 use motile::analysis::trajectory::{Evidence, RegimeCriteria};
 use motile::base::Region;
-use motile::scene::{Handle, Scene};
+use motile::scene::{Handle, Hydrodynamics, Scene};
 use motile::setup::AnyFlow;
 
 use super::{First, SceneRun};
@@ -131,7 +131,33 @@ impl SceneRun {
         let force = system.force_on_bodies()?;
         summary.put("force_bodies_x", force.x, "of the fluid on all bodies, at the end (force)");
         summary.put("force_bodies_y", force.y, "of the fluid on all bodies, at the end (force)");
-        let Some(forces) = system.channel_forces()? else { return Ok(()) };
+        let loads = system.obstacle_loads()?;
+        for (number, load) in loads.iter().enumerate().take(MOST_BODIES) {
+            let Some(load) = load else { continue };
+            let about = "of the fluid on it, at the end";
+            summary.put(&format!("walls.{number}_force_x"), load.force.x, about);
+            summary.put(&format!("walls.{number}_force_y"), load.force.y, about);
+            summary.put(
+                &format!("walls.{number}_torque"),
+                load.torque,
+                "of the fluid on it about its centroid, at the end",
+            );
+        }
+        let Some(forces) = system.channel_forces()? else {
+            let domain = system.hydrodynamics().fluid_view().domain;
+            if let (Some(length), Some(height), None) = (domain.periods[0], domain.periods[1], domain.walls) {
+                // The mean pressure gradient of a box carries the forces in it.
+                let [along, up] = system.report().mean_pressure_gradient.map(|gradient| gradient * length * height);
+                summary.put("pressure_force_x", along, "of the mean pressure gradient, at the end (force)");
+                summary.put("pressure_force_y", up, "of the mean pressure gradient, at the end (force)");
+                // Forces that cancel leave round-off of all of them.
+                let scale = system.markers().forces().iter().map(|force| force.length()).sum::<f64>();
+                let left = (along + force.x).hypot(up + force.y);
+                let about = "force of the pressure gradient and on the bodies, over the sum of all forces";
+                summary.put("force_balance", if scale > 0.0 { left / scale } else { 0.0 }, about);
+            }
+            return Ok(());
+        };
         summary.put("pressure_drop", forces.pressure_drop, "over a period, at the end (stress)");
         if let Some(extra) = forces.extra_pressure_drop {
             summary.put("extra_pressure_drop", extra, "over a period, because of the bodies (stress)");
@@ -139,13 +165,18 @@ impl SceneRun {
         let [lower, upper] = forces.on_walls;
         summary.put("force_lower", lower, "of the fluid along the lower wall, over a period (force)");
         summary.put("force_upper", upper, "of the fluid along the upper wall, over a period (force)");
+        if system.hydrodynamics().friction() > 0.0 {
+            summary.put("force_plates", forces.on_plates, "of the fluid on the plates that it rubs against (force)");
+        }
         if let Some(traction) = system.wall_traction()? {
-            let scale = forces.scale();
+            // Forces that cancel leave round-off of all of them.
+            let all = system.markers().forces().iter().map(|force| force.length()).sum::<f64>();
+            let scale = forces.scale().max(all);
             let balance = if scale > 0.0 { forces.imbalance(traction) / scale } else { 0.0 };
             summary.put(
                 "force_balance",
                 balance,
-                "pressure drop less forces, from the shear stress on the walls, over the largest",
+                "pressure drop less forces, from the shear stress on the walls, over the sum of all forces",
             );
         }
         Ok(())

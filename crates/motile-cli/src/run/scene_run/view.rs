@@ -68,7 +68,7 @@ pub(super) fn view_of(
 
 /// Returns the title of pictures: the parameters of all particles of a scene, and the viscosities of its fluids. If
 /// bodies differ, it has the smallest and the largest value.
-pub(super) fn caption(setup: &Setup, region: &str) -> String {
+pub(in crate::run) fn caption(setup: &Setup, region: &str) -> String {
     let droplets = || setup.droplets.iter();
     let of_interfaces = || setup.interfaces.iter().filter_map(|interface| interface.particles);
     let particles = || droplets().filter_map(|droplet| droplet.particles).chain(of_interfaces());

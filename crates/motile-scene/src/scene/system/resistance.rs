@@ -178,6 +178,8 @@ impl Resistance {
         let mut left = scale;
         // The latest stresses are near to the next ones, apart from their size.
         each(bodies, |body, _, own| self.direction[own].copy_from_slice(body.stresses()));
+        // On the present shape they may add up to a force.
+        self.balance.apply(&mut self.image, &mut self.direction);
         if scale > 0.0 && self.direction.iter().any(|stress| *stress != 0.0) {
             let length = self.measure(flow, bodies, 1.0)?;
             let step = dot(&self.direction, &self.residual) / length;

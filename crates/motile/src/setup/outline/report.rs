@@ -45,25 +45,16 @@ impl Setup {
     /// # Errors
     /// Returns an error for an outline that cannot be read or used, with its key.
     pub fn outlines(&self) -> Result<Vec<OutlineReport>, SetupError> {
-        let droplets = self.droplets.iter().enumerate().map(|(k, body)| (format!("droplets[{k}].shape"), &body.shape));
-        let rigid = self.rigid_bodies.iter().enumerate();
-        let rigid = rigid.map(|(k, body)| (format!("rigid-bodies[{k}].shape"), &body.shape));
-        let shells = self.shells.iter().enumerate().flat_map(|(k, shell)| {
-            let rest = shell.rest.iter().map(move |rest| (format!("shells[{k}].rest"), rest));
-            std::iter::once((format!("shells[{k}].shape"), &shell.shape)).chain(rest)
-        });
         let mut reports = Vec::new();
-        for (key, shape) in droplets.chain(rigid).chain(shells) {
+        for (key, shape) in self.shapes() {
             if let DropletShape::Outline(outline) = shape {
                 let key = format!("{key}.outline");
                 reports.push(outline.report(&key, OutlineOrigin::Centroid).map_err(|error| error.of(&key))?);
             }
         }
         let [period, _] = self.region.lengths();
-        let solids = self.solids.iter().enumerate().map(|(k, solid)| (format!("solids[{k}]"), &solid.outline));
-        let walls = self.walls.iter().enumerate().map(|(k, wall)| (format!("walls[{k}]"), &wall.outline));
-        for (at, outline) in solids.chain(walls) {
-            let key = |name: &str| format!("{at}.outline.{name}");
+        for (at, outline) in self.outlines_of_solids() {
+            let key = |name: &str| format!("{at}.{name}");
             let line = |key: String, given: &OutlineSetup| -> Result<OutlineReport, SetupError> {
                 let made = || -> Result<OutlineReport, SetupError> {
                     let prepared = given.prepared(Some(period), OutlineOrigin::File)?;
@@ -82,9 +73,9 @@ impl Setup {
                 _ => None,
             });
         }
-        for (k, interface) in self.interfaces.iter().enumerate() {
-            if let InterfaceShape::Line(outline) = &interface.shape {
-                let key = format!("interfaces[{k}].shape.line");
+        for (at, shape) in self.lines() {
+            if let InterfaceShape::Line(outline) = shape {
+                let key = format!("{at}.line");
                 let made = || -> Result<OutlineReport, SetupError> {
                     let prepared = outline.prepared(Some(period), OutlineOrigin::File)?;
                     let points = active_interface::line_through(&prepared.points, period, SAMPLES)?;

@@ -53,14 +53,41 @@ fn of_shape(shape: &mut DropletShape) -> Option<&mut OutlineSetup> {
 /// Outline of a solid or wall, if it is given by one, and true for a line.
 fn of_solid(outline: &mut SolidOutline) -> Option<(&'static str, &mut OutlineSetup, bool)> {
     match outline {
-        SolidOutline::Closed(outline) => Some(("outline.closed", outline, false)),
-        SolidOutline::WallBelowLine(outline) => Some(("outline.wall-below-line", outline, true)),
-        SolidOutline::WallAboveLine(outline) => Some(("outline.wall-above-line", outline, true)),
+        SolidOutline::Closed(outline) => Some(("closed", outline, false)),
+        SolidOutline::WallBelowLine(outline) => Some(("wall-below-line", outline, true)),
+        SolidOutline::WallAboveLine(outline) => Some(("wall-above-line", outline, true)),
         _ => None,
     }
 }
 
 impl Setup {
+    /// Returns the description with the paths of its files as seen from the directory of the program, where they were
+    /// relative to `directory`. Absolute paths stay. In contrast to [`Setup::with_files`], the files are not read, so
+    /// that you can still change which outline of a file is used.
+    #[must_use]
+    pub fn with_paths_from(mut self, directory: &Path) -> Self {
+        let seen = |file: &mut String| *file = directory.join(&*file).to_string_lossy().into_owned();
+        self.shapes_mut().filter_map(|(_, shape)| of_shape(shape)?.file.as_mut()).for_each(seen);
+        for (_, outline) in self.outlines_of_solids_mut() {
+            let file = match outline {
+                SolidOutline::Mesh(mesh) => mesh.file.as_mut(),
+                outline => of_solid(outline).and_then(|(_, outline, _)| outline.file.as_mut()),
+            };
+            file.map(seen);
+        }
+        for (_, shape) in self.lines_mut() {
+            if let InterfaceShape::Line(outline) = shape {
+                outline.file.as_mut().map(seen);
+            }
+        }
+        for fibre in &mut self.fibres {
+            if let FibreShape::Files(name) = &mut fibre.shape {
+                seen(name);
+            }
+        }
+        self
+    }
+
     /// Returns the description with the contents of its files in their place, so that it no longer depends on them.
     /// Paths are relative to a directory, for a scene file the one that it is in. Scene files that are read by
     /// [`Setup::from_toml`] have this done for the directory of the program.
@@ -70,41 +97,26 @@ impl Setup {
     /// contents cannot be used.
     pub fn with_files(mut self, directory: &Path) -> Result<Self, SetupError> {
         let keyed = |key: String| move |error: OutlineError| SetupError::from(error).of(&key);
-        let shapes =
-            self.droplets.iter_mut().enumerate().map(|(k, body)| (format!("droplets[{k}].shape"), &mut body.shape));
-        let many = self.suspension.iter_mut().enumerate();
-        let shapes =
-            shapes.chain(many.map(|(k, many)| (format!("suspension[{k}].droplet.shape"), &mut many.droplet.shape)));
-        let rigid = self.rigid_bodies.iter_mut().enumerate();
-        let shapes = shapes.chain(rigid.map(|(k, body)| (format!("rigid-bodies[{k}].shape"), &mut body.shape)));
-        let shells = self.shells.iter_mut().enumerate().flat_map(|(k, shell)| {
-            let rest = shell.rest.iter_mut().map(move |rest| (format!("shells[{k}].rest"), rest));
-            std::iter::once((format!("shells[{k}].shape"), &mut shell.shape)).chain(rest)
-        });
-        for (key, shape) in shapes.chain(shells) {
+        for (key, shape) in self.shapes_mut() {
             if let Some(outline) = of_shape(shape) {
                 outline.embed(directory, false).map_err(keyed(format!("{key}.outline")))?;
             }
         }
-        let solids = self.solids.iter_mut().enumerate().map(|(k, solid)| (format!("solids[{k}]"), &mut solid.outline));
-        let walls = self.walls.iter_mut().enumerate().map(|(k, wall)| (format!("walls[{k}]"), &mut wall.outline));
-        for (at, outline) in solids.chain(walls) {
+        for (at, outline) in self.outlines_of_solids_mut() {
             if let SolidOutline::Mesh(mesh) = outline {
-                mesh.embed(directory).map_err(|error| error.of(&format!("{at}.outline.mesh")))?;
+                mesh.embed(directory).map_err(|error| error.of(&format!("{at}.mesh")))?;
             }
             if let Some((key, outline, line)) = of_solid(outline) {
                 outline.embed(directory, line).map_err(keyed(format!("{at}.{key}")))?;
             }
         }
-        for (k, interface) in self.interfaces.iter_mut().enumerate() {
-            if let InterfaceShape::Line(outline) = &mut interface.shape {
-                outline.embed(directory, true).map_err(keyed(format!("interfaces[{k}].shape.line")))?;
+        for (key, shape) in self.lines_mut() {
+            if let InterfaceShape::Line(outline) = shape {
+                outline.embed(directory, true).map_err(keyed(format!("{key}.line")))?;
             }
         }
-        for fibre in &mut self.fibres {
-            if let FibreShape::Files(name) = &mut fibre.shape {
-                *name = directory.join(&*name).to_string_lossy().into_owned();
-            }
+        for (k, fibre) in self.fibres.iter_mut().enumerate() {
+            fibre.shape.embed(directory).map_err(|error| error.of(&format!("fibres[{k}].shape.files")))?;
         }
         Ok(self)
     }

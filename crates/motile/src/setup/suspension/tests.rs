@@ -203,7 +203,7 @@ fn ten_lines_are_a_thousand_droplets() {
     }
 }
 
-/// Where a channel has room for one row alone, this is in the middle.
+/// If a channel has room for one row alone, this is in the middle.
 #[test]
 fn one_row_in_a_channel_is_on_its_axis() {
     let row = SuspensionSetup {

@@ -1,0 +1,197 @@
+//! Which waves of a tube are taken: the rule for wave numbers, and orders around the axis.
+
+use motile_base::internal::{Refuse, gauss_legendre};
+
+use super::wall::{Answer, answers};
+use crate::SpaceError;
+
+/// Wave numbers at which a survey looks, in units of 1/radius: the first, and the ratio of the next ones.
+const FIRST: f64 = 1.0;
+const RATIO: f64 = std::f64::consts::SQRT_2;
+/// Most orders and largest wave number: a droplet that needs more is a few thousandths of a radius from the wall.
+const MOST_ORDERS: usize = 512;
+const LARGEST: f64 = 600.0;
+/// Longest distance of droplets along the tube, in units of its radius.
+const LONGEST: f64 = 400.0;
+/// Ends of the pieces of the rule, which resolve the logarithms at zero and the poles close to the axis.
+const PIECES: [f64; 2] = [1.0, 6.0];
+
+/// A wave number, its weight, and the wall's answers.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub(super) k: f64,
+    pub(super) weight: f64,
+    pub(super) answers: Vec<Answer>,
+}
+
+impl Node {
+    fn new(k: f64, weight: f64, orders: usize) -> Result<Self, SpaceError> {
+        let answers = answers(k, orders + 2).ok_or_else(too_close)?;
+        Ok(Self { k, weight, answers })
+    }
+}
+
+fn too_close() -> SpaceError {
+    let what = "a droplet is too close to the wall of the tube to be resolved";
+    SpaceError::refused(what, "", "Use a wider tube or a smaller droplet, or move it away from the wall")
+}
+
+/// Extent along the axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach(f64, f64);
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self(f64::INFINITY, -f64::INFINITY)
+    }
+}
+
+impl Reach {
+    pub(super) fn add(&mut self, z: f64) {
+        *self = Self(self.0.min(z), self.1.max(z));
+    }
+
+    pub(super) fn middle(&self) -> f64 {
+        if self.0 <= self.1 { 0.5 * (self.0 + self.1) } else { 0.0 }
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        (self.1 - self.0).max(0.0)
+    }
+}
+
+/// Rules that were made, to use them again.
+#[derive(Debug, Clone)]
+pub(super) struct Rules {
+    /// Part of the velocities that may be left out.
+    pub(super) tolerance: f64,
+    ladder: Vec<Node>,
+    nodes: Vec<Node>,
+    /// End and length of the rule, in steps, and its orders.
+    key: (usize, usize, usize),
+}
+
+/// Which waves count for some sources.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Survey {
+    /// Wave numbers that were tried, with the orders that count.
+    tried: Vec<(f64, usize)>,
+    end: f64,
+}
+
+impl Survey {
+    /// Tries longer and longer waves, with a function that writes the work of the wall for so many orders of a node.
+    /// Returns nothing if there is no work at all.
+    pub(super) fn new(
+        rules: &mut Rules,
+        mut energies: impl FnMut(&Node, usize, &mut Vec<f64>),
+    ) -> Result<Option<Self>, SpaceError> {
+        // Work goes with the square of velocities.
+        let negligible = rules.tolerance.powi(2);
+        let (mut survey, mut list) = (Self::default(), Vec::new());
+        let (mut guess, mut reference) = (12, 0.0_f64);
+        let (mut k, mut before) = (FIRST, 0.0);
+        for step in 0.. {
+            let total = loop {
+                let node = rules.step(step, k, guess)?;
+                energies(node, guess, &mut list);
+                let total = list.iter().sum::<f64>();
+                if total.is_nan() {
+                    return Err(too_close());
+                }
+                let floor = negligible * reference.max(total);
+                if list[guess - 2..].iter().all(|energy| *energy <= floor) {
+                    let used = list.iter().rposition(|energy| *energy > floor).map_or(1, |last| last + 2);
+                    survey.tried.push((k, used));
+                    guess = used + 2;
+                    break total;
+                }
+                if guess >= MOST_ORDERS {
+                    return Err(too_close());
+                }
+                guess = (guess + guess / 2).min(MOST_ORDERS);
+            };
+            reference = reference.max(total);
+            if reference == 0.0 {
+                return Ok(None);
+            }
+            let floor = negligible * reference;
+            if total <= floor {
+                // Between the last two, the logarithm falls along a line.
+                let part = (f64::ln(before / floor) / f64::ln(before / total.max(1e-3 * floor))).clamp(0.0, 1.0);
+                survey.end = if part.is_nan() { k } else { k / RATIO * RATIO.powf(part) };
+                return Ok(Some(survey));
+            }
+            before = total;
+            k *= RATIO;
+            if k > LARGEST {
+                return Err(too_close());
+            }
+        }
+        Ok(None)
+    }
+
+    /// Returns the number of orders at a wave number.
+    pub(super) fn orders(&self, k: f64) -> usize {
+        let next = self.tried.partition_point(|tried| tried.0 < k);
+        let most = |at: usize| self.tried.get(at).map_or(1, |tried| tried.1);
+        most(next).max(most(next.saturating_sub(1)))
+    }
+}
+
+impl Rules {
+    /// Creates rules without nodes yet.
+    pub(super) fn new(tolerance: f64) -> Self {
+        Self { tolerance, ladder: Vec::new(), nodes: Vec::new(), key: (0, 0, 0) }
+    }
+
+    /// Returns a node of the survey.
+    fn step(&mut self, step: usize, k: f64, orders: usize) -> Result<&Node, SpaceError> {
+        if step == self.ladder.len() {
+            self.ladder.push(Node::new(k, 0.0, orders)?);
+        } else if self.ladder[step].answers.len() < orders + 2 {
+            self.ladder[step] = Node::new(k, 0.0, orders)?;
+        }
+        Ok(&self.ladder[step])
+    }
+
+    /// Returns the rule for a survey and an extent along the axis.
+    pub(super) fn nodes(&mut self, survey: &Survey, length: f64) -> Result<&[Node], SpaceError> {
+        if length > LONGEST {
+            let what = "the droplets are too far apart along the tube";
+            let value = format!("{length:.0} of its radii");
+            return Err(SpaceError::refused(what, value, format!("Use at most {LONGEST} radii")));
+        }
+        let orders = survey.tried.iter().map(|tried| tried.1).max().unwrap_or(1);
+        let key = ((survey.end / 2.0).ceil() as usize, (4.0 * length).ceil() as usize, orders.next_multiple_of(8));
+        if self.key != key {
+            self.nodes.clear();
+            let (end, length) = (2.0 * key.0 as f64, 0.25 * key.1 as f64);
+            let mut start = 0.0;
+            for stop in PIECES.into_iter().map(|stop| stop.min(end)).chain([end]) {
+                if stop > start {
+                    self.piece(start, stop, length, key.2)?;
+                    start = stop;
+                }
+            }
+            self.key = key;
+        }
+        Ok(&self.nodes)
+    }
+
+    /// Adds the nodes of a piece.
+    fn piece(&mut self, start: f64, stop: f64, length: f64, orders: usize) -> Result<(), SpaceError> {
+        let width = stop - start;
+        // Waves turn by width * length; near zero, k = t^4.
+        let power = if start == 0.0 { 4 } else { 1 };
+        let fewest = 5 + (-1.6 * self.tolerance.log10()).ceil() as usize;
+        let count = fewest + (0.25 * width * length * f64::from(power)).ceil() as usize;
+        for (x, weight) in gauss_legendre(count) {
+            let t = 0.5 * (1.0 + x);
+            let k = start + width * t.powi(power);
+            let weight = 0.5 * weight * width * f64::from(power) * t.powi(power - 1);
+            self.nodes.push(Node::new(k, weight, orders)?);
+        }
+        Ok(())
+    }
+}
