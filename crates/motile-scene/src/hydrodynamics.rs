@@ -42,7 +42,7 @@ impl From<Region> for Domain {
     }
 }
 
-/// What the fluid does to an obstacle at rest, a closed rigid wall, per unit of depth.
+/// Load of the fluid on an obstacle at rest, a closed rigid wall, per unit of depth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[doc(alias("drag", "lift", "torque"))]
 pub struct ObstacleLoad {

@@ -52,7 +52,7 @@ pub struct SpaceDroplets {
     surroundings: Option<Box<dyn Surroundings>>,
     sources: Vec<Source>,
     close: Vec<Close>,
-    /// What each droplet feels of the others.
+    /// Flow that each droplet feels of the others.
     nears: Vec<Near>,
     /// For each droplet, its part of the velocities.
     parts: Vec<Range<usize>>,
@@ -76,7 +76,7 @@ struct Row {
     row: Vec<[f64; 6]>,
 }
 
-/// What a droplet feels of the others, and memory for it.
+/// Flow that a droplet feels of the others, and memory for it.
 #[derive(Debug)]
 struct Near {
     to: usize,

@@ -248,10 +248,10 @@ impl SteadyState {
     /// Returns the growth rates (1/time; the imaginary part is an angular frequency) of disturbances that are products
     /// of `cos(order phi)` and functions of theta, fastest first.
     ///
-    /// Among them are zeros that say nothing about stability. In unbounded fluid, these are a translation for the orders
-    /// 0 and 1, and a turn of the swimmer for order 1. In a tube, only the translation along it remains, for order 0. How
-    /// far these are from zero shows how well the degree resolves the swimmer. If the
-    /// particles have a sharp edge, modes lie close together and converge slowly: compare the rates of two degrees.
+    /// Among them are zeros that say nothing about stability. In unbounded fluid, these are a translation for orders 0
+    /// and 1, and a turn of the swimmer for order 1. In a tube, only the translation along it remains, for order 0.
+    /// How far these are from zero shows how well the degree resolves the swimmer. If the particles have a sharp edge,
+    /// modes lie close together and converge slowly: compare the rates of two degrees.
     ///
     /// # Errors
     /// Returns an error for an order above the degree, or the errors of [`SpaceDroplet::evaluate`].

@@ -1,4 +1,4 @@
-//! What surrounds droplets: walls and boxes, and how to write your own.
+//! Surroundings of droplets: walls and boxes, and how to write your own.
 
 use std::fmt::Debug;
 
@@ -89,8 +89,8 @@ pub struct Targets<'a> {
 
 /// Walls or a periodic box around droplets, which change their flow.
 ///
-/// A droplet has its own flow in unbounded fluid. Surroundings add the rest: the flow that walls reflect, or the flow of
-/// periodic images. Implement this trait for other surroundings, and give them to
+/// A droplet has its own flow in unbounded fluid. Surroundings add the rest: the flow that walls reflect, or the flow
+/// of periodic images. Implement this trait for other surroundings, and give them to
 /// [`SpaceDroplet::with_surroundings`] or [`crate::SpaceDroplets::with_surroundings`].
 pub trait Surroundings: Debug + Send + Sync {
     /// Adds the flow of all sources in these surroundings, without their flow in unbounded fluid, at all targets. The

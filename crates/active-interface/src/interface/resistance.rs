@@ -39,7 +39,7 @@ pub(super) struct Resistance {
     /// Waves of the preconditioner, number m = 0 first, and factors on the tensions before and after it.
     waves: Vec<Wave>,
     scales: Vec<f64>,
-    /// The same factors on the forces of friction outward and along; empty if the friction is uniform.
+    /// Such factors on the forces of friction outward and along; empty if the friction is uniform.
     friction_scales: Vec<f64>,
     /// Friction outward and along at the markers (force times time per length squared).
     frictions: Vec<[f64; 2]>,

@@ -30,8 +30,8 @@ impl Array {
     }
 }
 
-/// Content of a VTK file: a geometry with named arrays of values at its points and in its cells. Vectors of the plane get a zero
-/// third component; values are stored in single, positions in double precision.
+/// Content of a VTK file: a geometry with named arrays of values at its points and in its cells. Vectors of the plane
+/// get a zero third component; values are stored in single, positions in double precision.
 ///
 /// ```
 /// use motile::base::Vec2;

@@ -1,6 +1,6 @@
 //! Entries of a line.
 
-/// What separates the entries of a table.
+/// Separator of the entries of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Separator {
     /// A semicolon or tab, next to which a comma is a decimal mark.

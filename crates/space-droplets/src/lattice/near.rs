@@ -12,7 +12,7 @@ use crate::surroundings::{Components, Sources, bounds};
 /// Targets that are treated together.
 const LANES: usize = 8;
 
-/// What the sums over images need.
+/// Lists that the sums over images need.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near<'a> {
     pub(super) split: &'a Split,

@@ -90,7 +90,8 @@ impl SpaceDroplets {
         self.nears = nears;
     }
 
-    /// Adds the double layers that the surroundings reflect, of the velocities that [`SpaceDroplets::product`] has left.
+    /// Adds the double layers that the surroundings reflect, of the velocities that [`SpaceDroplets::product`] has
+    /// left.
     fn reflect(&mut self, out: &mut [f64]) -> Result<(), SpaceError> {
         let Self { droplets, sources, surroundings, parts, .. } = self;
         let Some(surroundings) = surroundings else { return Ok(()) };

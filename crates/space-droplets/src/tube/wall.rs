@@ -1,4 +1,4 @@
-//! What the wall of a tube returns for each wave: no slip, exactly.
+//! The flow that the wall of a tube returns for each wave: no slip, exactly.
 //!
 //! In units of the radius, a wave `exp(i m phi + i k z)` has three regular solutions of Stokes' equations. With psi of
 //! order n the function `I_n(k r) exp(i n phi + i k z)`, and X = k r I_(n+1) in place of I_n, their components along f

@@ -4,7 +4,7 @@ use motile_base::Vec2;
 
 use crate::curve::Curve;
 
-/// What the fluid does to a closed rigid wall, an obstacle, per unit of depth.
+/// Load of the fluid on a closed rigid wall, an obstacle, per unit of depth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[doc(alias("drag", "lift", "torque"))]
 pub struct ObstacleLoad {

@@ -23,7 +23,7 @@ pub(in crate::interface) struct BendingStabiliser {
     active: bool,
 }
 
-/// What the rates of decay depend on.
+/// Quantities that the rates of decay depend on.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::interface) struct Stiffness {
     /// Length of the curve, or of one period of it (length).
