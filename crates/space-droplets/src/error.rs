@@ -43,7 +43,7 @@ pub enum SpaceError {
         droplet: usize,
         /// The wall and what is known of the distance, in words.
         wall: String,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// Two droplets overlap.

@@ -83,7 +83,7 @@ pub(crate) fn digits(places: Components<'_>, distance: f64) -> f64 {
 pub struct Targets<'a> {
     /// Places in the laboratory (length).
     pub places: Components<'a>,
-    /// What is added to: velocities times the viscosity outside for forces, velocities for stresslets.
+    /// Flow that is added to: velocities times the viscosity outside for forces, velocities for stresslets.
     pub flow: [&'a mut [f64]; 3],
 }
 

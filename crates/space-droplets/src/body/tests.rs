@@ -46,7 +46,7 @@ fn a_run_continues_from_a_checkpoint_bit_for_bit() {
     assert!(other.resume(&Checkpoint::from_bytes(&bytes).unwrap()).is_err());
 }
 
-/// The same scene in metres: as many steps, and the same shape and speed to round-off.
+/// In metres, a scene has as many steps, and the same shape and speed to round-off.
 #[test]
 fn units_do_not_matter() {
     let end = |length: f64, force: f64| {

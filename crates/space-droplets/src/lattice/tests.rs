@@ -13,7 +13,7 @@ fn list(places: &[[f64; 3]]) -> Vectors {
     list
 }
 
-/// What sources are made of: forces, or normals and velocities.
+/// Strengths of sources: forces, or normals and velocities.
 #[derive(Clone, Copy)]
 enum Strength<'a> {
     Forces(&'a Vectors),

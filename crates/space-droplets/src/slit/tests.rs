@@ -29,7 +29,7 @@ fn scattered(count: usize, seed: f64) -> [Vectors; 3] {
     [places, vector(3), vector(6)]
 }
 
-/// What sources are made of: forces, or normals and velocities.
+/// Strengths of sources: forces, or normals and velocities.
 #[derive(Clone, Copy)]
 enum Strength<'a> {
     Forces(&'a Vectors),
