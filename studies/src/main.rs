@@ -19,6 +19,7 @@ mod questions;
 mod scene_keys;
 mod shared_benchmark;
 mod site;
+mod space_droplets;
 mod steady_states;
 mod sums;
 mod suspensions;
@@ -66,6 +67,7 @@ enum Study {
     Suspensions(suspensions::Flags),
     Nucleus(nucleus::Flags),
     Questions(questions::Flags),
+    SpaceDroplets(space_droplets::Flags),
     /// Lets droplets exchange their particles with the inside
     Exchange(tables::Keep),
     Witnesses(tables::WitnessFlags),
@@ -99,6 +101,7 @@ fn run(flags: &Flags) -> anyhow::Result<()> {
         Study::Suspensions(flags) => suspensions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Questions(flags) => questions::run(flags),
+        Study::SpaceDroplets(flags) => space_droplets::run(flags),
         Study::Exchange(keep) => exchange::run(*keep),
         Study::Witnesses(flags) => tables::witnesses(flags),
         Study::All(flags) => tables::all(flags),

@@ -1,5 +1,5 @@
-//! Four questions about what cells do and feel: the tables of
-//! `docs/evidence/results/{cortex,confinement,gradients,swing}.md`.
+//! Five questions about what cells do and feel: the tables of
+//! `docs/evidence/results/{cortex,confinement,gradients,scattering,swing}.md`.
 //!
 //! `cargo run --release -p studies -- questions TABLE` prints one of them; with `--write` it becomes a file of
 //! `docs/tables`.
@@ -7,6 +7,7 @@
 mod confinement;
 mod cortex;
 mod gradients;
+mod scattering;
 mod swing;
 
 use anyhow::Result;
@@ -28,15 +29,19 @@ pub(crate) struct Flags {
 
 type Run = fn() -> Result<Vec<Table>>;
 
-const TABLES: [(&str, Run); 4] = [
+const TABLES: [(&str, Run); 6] = [
     // Threshold, speed and shape from droplet to cortex.
     ("cortex", cortex::cortex),
     // Speed over the width of a channel, with friction.
     ("confinement", confinement::confinement),
     // Turning of swimmers in gradients of activity.
     ("gradients", gradients::gradients),
+    // Encounters of two swimmers in three dimensions.
+    ("scattering", scattering::scattering),
     // Swing of an unstable swimmer in a tube: plane or helix.
     ("swing", swing::swing),
+    // The same in tubes of other radii.
+    ("tubes", swing::tubes),
 ];
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {

@@ -238,6 +238,15 @@ def test_three_dimensions_without_symmetry(tmp_path: Path) -> None:
         motile.Setup(region=motile.plane(), droplets=[motile.droplet(heading=[1, 0, 0])]).build()
 
 
+def test_walls_around_droplets_in_space() -> None:
+    droplet = motile.droplet(-1, particles={"excluded_volume": {"step": 2.0}}, heading=[1.0, 0.0, 0.3])
+    setup = motile.Setup(region=motile.slit(-2.0, 2.0), method=motile.harmonics(6), droplets=[droplet])
+    scene = setup.build()
+    assert scene.minimum_gap == pytest.approx(1.0, abs=0.05)
+    assert np.abs(scene.velocity_at([[0.3, 0.2, 2.0]])).max() < 1e-9 < np.abs(scene.velocity_at([[0.3, 0.2, 1.5]])).max()
+    assert motile.Setup(region=motile.box(6, 5, 4), droplets=[droplet]).build().space_droplets
+
+
 @pytest.mark.skipif(importlib.util.find_spec("meshio") is None, reason="needs meshio")
 def test_surfaces_are_read_by_another_reader(tmp_path: Path) -> None:
     meshio = importlib.import_module("meshio")

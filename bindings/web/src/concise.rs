@@ -20,7 +20,8 @@ enum Step {
 /// # Errors
 /// A description that has no text, with a seed above 9223372036854775807.
 pub fn concise(setup: &Setup) -> Result<String, Refusal> {
-    let table = Table::try_from(setup).map_err(Refusal::plain)?;
+    // By way of the text, because the serializer would be compiled once more.
+    let table = setup.to_toml()?.parse().map_err(Refusal::plain)?;
     let mut whole = Value::Table(table);
     shorten(&mut whole, &mut Vec::new(), setup);
     let Value::Table(table) = whole else { return Ok(String::new()) };

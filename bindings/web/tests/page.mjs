@@ -234,7 +234,7 @@ async function whole({ name, ...view }) {
   await page.fill("#scene", "viscosity = -1.0\n");
   await press("#run");
   await until(page, `${name}: no error`, () =>
-    document.getElementById("problem").textContent.includes("“viscosity = -1” is not possible. Give a positive"),
+    document.getElementById("problem").textContent.includes("“viscosity = -1” is not possible. Use a positive"),
   );
   await press('[data-way="python"]');
   await until(page, `${name}: no Python`, () =>

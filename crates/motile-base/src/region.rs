@@ -2,14 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Drive, InputError, not_negative, positive, within};
+use crate::{Drive, InputError, finite, not_negative, positive, within};
 use described::Described;
 
 mod described;
 
 /// Region that the fluid fills, centred on the origin.
 ///
-/// In data, a channel with slip is a `channel` with the key `slip`: two lengths, or one for both walls.
+/// In data, a channel with slip is a `channel` with the key `slip`: two lengths, or one for both walls. A box in three
+/// dimensions is a `box` with three lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Described", into = "Described")]
 #[non_exhaustive]
@@ -60,6 +61,20 @@ pub enum Region {
         /// one, which continues beyond, the length over which the pressure falls by the prescribed gradient times it,
         /// as in a tube with a droplet in every such length, a radius or more from the next one; infinite without.
         length: Option<f64>,
+    },
+    /// The fluid in three dimensions between two plane rigid no-slip walls at z = lower and z = upper. It has no end
+    /// along x and y, and is at rest far away.
+    #[doc(alias("parallel plates", "Hele-Shaw cell"))]
+    Slit {
+        /// Height of the lower wall (length).
+        lower: f64,
+        /// Height of the upper wall (length).
+        upper: f64,
+    },
+    /// A box in three dimensions that is periodic in x, y and z; the mean velocity is zero.
+    SpaceBox {
+        /// Periods in x, y and z (length).
+        lengths: [f64; 3],
     },
 }
 
@@ -179,6 +194,16 @@ impl Region {
                 positive("the period in x", lx)?;
                 positive("the period in y", ly).map(drop)
             }
+            Self::Slit { lower, upper } => {
+                finite("the height of the lower wall", lower)?;
+                finite("the height of the upper wall", upper)?;
+                positive("the distance of the upper wall from the lower one", upper - lower).map(drop)
+            }
+            Self::SpaceBox { lengths: [lx, ly, lz] } => {
+                positive("the period in x", lx)?;
+                positive("the period in y", ly)?;
+                positive("the period in z", lz).map(drop)
+            }
             Self::Channel { length, width, drive } | Self::SlipChannel { length, width, drive, .. } => {
                 positive("the period of the channel", length)?;
                 positive("the width of the channel", width)?;
@@ -219,7 +244,8 @@ impl Region {
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         match *self {
-            Self::Plane | Self::Space => [f64::INFINITY; 2],
+            Self::Plane | Self::Space | Self::Slit { .. } => [f64::INFINITY; 2],
+            Self::SpaceBox { lengths: [lx, ly, _] } => [lx, ly],
             Self::Tube { radius, shape, .. } => {
                 let widest = if let TubeShape::Sinusoidal { amplitude, .. } = shape { amplitude.abs() } else { 0.0 };
                 [self.half_length().map_or(f64::INFINITY, |half| 2.0 * half), 2.0 * (radius + widest)]
@@ -233,7 +259,8 @@ impl Region {
     #[must_use]
     pub fn periods(&self) -> [Option<f64>; 2] {
         match *self {
-            Self::Plane | Self::Space | Self::Tube { .. } => [None; 2],
+            Self::Plane | Self::Space | Self::Tube { .. } | Self::Slit { .. } => [None; 2],
+            Self::SpaceBox { lengths: [lx, ly, _] } => [Some(lx), Some(ly)],
             Self::Box { lengths } => lengths.map(Some),
             Self::Channel { length, .. } | Self::SlipChannel { length, .. } => [Some(length), None],
         }

@@ -8,8 +8,8 @@ use motile_base::{
     positive,
 };
 use motile_scene::{
-    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, ObstacleLoad, Warning,
-    checkpoint::SavedState, gap::Boundary,
+    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, ObstacleLoad, WallOutline,
+    Warning, checkpoint::SavedState, gap::Boundary,
 };
 use stokes_boundary_integrals::{InterfaceFlow, LayerError, Settings};
 
@@ -51,6 +51,7 @@ pub struct BoundaryIntegral {
     sharp_corners: Vec<SharpCorner>,
     /// Minimum distance of the sides of a channel of rigid walls (length).
     narrowest: f64,
+    outlines: Vec<WallOutline>,
     points: Option<PointForces>,
     /// Places and forces of the points that have forces.
     pushed: [Vec<Vec2>; 2],
@@ -70,6 +71,7 @@ impl BoundaryIntegral {
             wall_spacings: Vec::new(),
             sharp_corners: Vec::new(),
             narrowest: f64::INFINITY,
+            outlines: Vec::new(),
             points: None,
             pushed: Default::default(),
         })
@@ -122,7 +124,8 @@ impl BoundaryIntegral {
         boundary.sort();
         let sharp_corners = walls.iter().enumerate().map(|(number, wall)| wall.sharp_corner(number, SHARPEST_TURN));
         let sharp_corners = sharp_corners.filter_map(Result::transpose).collect::<Result<_, _>>()?;
-        Ok(Self { walls: boundary, wall_spacings, sharp_corners, narrowest: narrowest(walls), ..self })
+        let outlines = walls.iter().map(RigidWall::outline).collect();
+        Ok(Self { walls: boundary, wall_spacings, sharp_corners, narrowest: narrowest(walls), outlines, ..self })
     }
 
     /// Returns the forces of the rigid walls on the fluid (force), wall by wall, from the last evaluation.
@@ -276,6 +279,10 @@ impl Hydrodynamics for BoundaryIntegral {
             ObstacleLoad { centroid, force, torque, shear }
         };
         self.interfaces.flow.obstacle_loads().map(|found| found.map(load)).collect()
+    }
+
+    fn wall_outlines(&self) -> Vec<WallOutline> {
+        self.outlines.clone()
     }
 
     fn warnings(&self) -> Vec<Warning> {

@@ -1,7 +1,7 @@
 //! Rigid walls and obstacles at rest, of any shape.
 
 use motile_base::{PeriodicSeries, Vec2, internal::all_points_finite, not_negative, polygon, positive, within};
-use motile_scene::gap::Boundary;
+use motile_scene::{WallOutline, gap::Boundary};
 use num_complex::Complex64;
 use stokes_boundary_integrals::{LayerCurve, LayerError, Settings};
 
@@ -378,6 +378,14 @@ impl RigidWall {
         &self.points
     }
 
+    /// Returns the corners that the boundary has, a few per node, at equal steps of the parameter.
+    pub(crate) fn outline(&self) -> WallOutline {
+        let most = (self.points.len() / (CORNERS * self.nodes)).max(1);
+        let stride = if self.points.len().is_multiple_of(most) { most } else { 1 };
+        let points: Vec<Vec2> = self.points.iter().copied().step_by(stride).collect();
+        WallOutline { points, period: self.period }
+    }
+
     /// Returns the wall as a curve of layers.
     pub(crate) fn curve(&self) -> LayerCurve<'_> {
         LayerCurve { positions: &self.points, period: self.period, nodes: self.nodes }
@@ -392,8 +400,7 @@ impl RigidWall {
 
     /// Adds the sides of the wall to a boundary, whose inside on their left is the rigid part.
     pub fn add_to(&self, boundary: &mut Boundary) {
-        let stride = (self.points.len() / (CORNERS * self.nodes)).max(1);
-        let corners: Vec<Vec2> = self.points.iter().copied().step_by(stride).collect();
+        let corners = self.outline().points;
         if self.period == Vec2::ZERO {
             boundary.push_loop(&corners);
             return;

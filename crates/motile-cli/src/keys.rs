@@ -281,10 +281,6 @@ fn problem(path: &[impl AsRef<str>], value: Value) -> Option<String> {
 fn kind(path: &[impl AsRef<str>]) -> Kind {
     let said = problem(path, Value::Table(Table::from_iter([(NO_KEY.to_owned(), Value::Integer(0))])));
     let said = said.unwrap_or_default();
-    // The reader lists the keys of the one-of-several kind in this way.
-    if let Some((_, names)) = said.split_once("available keys: ") {
-        return Kind::Table(names.split(", ").map(str::to_owned).collect());
-    }
     let (found, expected) = said.split_once("expected ").unwrap_or((&said, ""));
     let names = || expected.split('`').skip(1).step_by(2).map(str::to_owned).collect();
     if found.starts_with("unknown field") {

@@ -34,7 +34,7 @@ macro_rules! examples {
 }
 
 /// Examples, which the repository has in `examples/scenes`.
-const EXAMPLES: [(&str, &str); 17] = examples![
+const EXAMPLES: [(&str, &str); 18] = examples![
     "active_walls",
     "circles",
     "constriction",
@@ -49,6 +49,7 @@ const EXAMPLES: [(&str, &str); 17] = examples![
     "rigid_channel",
     "rigid_walls",
     "shear",
+    "slit",
     "suspension",
     "swimmer",
     "tube"

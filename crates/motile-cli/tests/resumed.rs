@@ -154,4 +154,11 @@ fn two_that_meet() {
 fn droplets_without_symmetry() {
     let keys = ["method.harmonics.degree=4", "droplets.0.viscosity=50", "step.adaptive.tolerance=0.000001"];
     compare(&scene("encounter"), "6", &keys, false);
+    // Many steps, so that the run can be killed between its last checkpoints.
+    let keys = [keys[0], "step.adaptive.tolerance=0.00002"];
+    compare(&scene("slit"), "3", &[&keys[..], &["region.slit.upper=1.6"]].concat(), false);
+    let tube = "region={ tube = { radius = 1.6, drive = { flux = 0.1 } } }";
+    compare(&scene("slit"), "2.5", &[&keys[..], &[tube]].concat(), false);
+    let lattice = "region={ box = { lengths = [8, 4, 4] } }";
+    compare(&scene("encounter"), "2", &[&keys[..], &[lattice]].concat(), false);
 }

@@ -56,6 +56,16 @@ pub struct ObstacleLoad {
     pub shear: f64,
 }
 
+/// Outline of a rigid wall at rest, besides the straight walls of the domain.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WallOutline {
+    /// Points at equally spaced parameters of a smooth curve, of one period if it is open (length). The fluid is on the
+    /// left of an open wall, and on the right of a closed one.
+    pub points: Vec<Vec2>,
+    /// Advance over one period (length); zero for a closed wall.
+    pub period: Vec2,
+}
+
 /// The fluid as a body sees it: its region, the viscosity around the body, and its resolution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FluidView {
@@ -184,6 +194,12 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         Vec::new()
     }
 
+    /// Returns the outlines of the rigid walls besides the straight walls of the domain, in the order of
+    /// [`Hydrodynamics::obstacle_loads`]. By default there are none.
+    fn wall_outlines(&self) -> Vec<WallOutline> {
+        Vec::new()
+    }
+
     /// Returns the friction alpha of the fluid with plates below and above it (stress times time per length squared),
     /// zero by default.
     fn friction(&self) -> f64 {
@@ -245,6 +261,7 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
         fn wall_spacings() -> &[f64];
         fn wall_slip() -> Option<[f64; 2]>;
         fn obstacle_loads() -> Vec<Option<ObstacleLoad>>;
+        fn wall_outlines() -> Vec<WallOutline>;
         fn friction() -> f64;
         fn axisymmetric() -> bool;
         fn work() -> FlowWork;

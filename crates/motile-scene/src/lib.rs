@@ -55,7 +55,7 @@ pub use error::{BodyError, FlowError, SceneError};
 pub use gap::Repulsion;
 pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, ObstacleLoad,
-    PrescribedFlow, Substrate,
+    PrescribedFlow, Substrate, WallOutline,
 };
-pub use observables::{ChannelForces, Deformation, MomentEllipse, Stress};
+pub use observables::{ChannelForces, Deformation, MomentEllipse, Stress, WallStress};
 pub use scene::{Every, Handle, Imposed, Observer, Run, Scene, StepSize, System, Warnings};

@@ -4,6 +4,7 @@ mod channel_forces;
 mod deformation;
 mod moment_ellipse;
 mod stress;
+mod wall_stress;
 
 use crate::{Body, Handle, Hydrodynamics, SceneError, System};
 
@@ -11,6 +12,7 @@ pub use channel_forces::ChannelForces;
 pub use deformation::Deformation;
 pub use moment_ellipse::MomentEllipse;
 pub use stress::Stress;
+pub use wall_stress::WallStress;
 
 impl<H: Hydrodynamics> System<H> {
     /// Returns the deformation of a body that is a closed curve, and its motion along itself, in the present state.

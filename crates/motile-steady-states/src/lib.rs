@@ -69,6 +69,7 @@ mod error;
 mod floquet;
 mod flow;
 mod growth;
+mod guidance;
 mod inside;
 mod iteration;
 mod model;
@@ -94,6 +95,7 @@ pub use critical::Critical;
 pub use cycle::LimitCycle;
 pub use error::SteadyError;
 pub use floquet::Multipliers;
+pub use guidance::Guidance;
 /// Complex number: growth rate and angular frequency, or amplitude and phase.
 pub use num_complex::Complex64;
 pub use parameter::Parameter;

@@ -119,6 +119,8 @@ pub(crate) struct Model {
     tangents: Vec<Vec2>,
     pub(crate) concentrations: Vec<f64>,
     tensions: Vec<f64>,
+    /// Gradient of the activity about the origin (force times length over length), zero in a scene.
+    pub(crate) activity_slope: Vec2,
     /// Cortex and friction of the interface, if there are any.
     resistance: Option<Box<Resistance>>,
     pub(crate) forces: Vec<Vec2>,
@@ -166,10 +168,13 @@ impl Model {
         let refuse = |what: &str, remedy| Err(SteadyError::unsupported(what, remedy));
         setup.check()?;
         if setup.lacks_symmetry() {
-            return refuse(
-                "the scene is described without symmetry about the x axis",
-                "A swimmer alone is axisymmetric, so leave out position, heading, flow and the method harmonics",
-            );
+            let remedy = match setup.region {
+                Region::Space | Region::Tube { .. } => {
+                    "A swimmer alone is axisymmetric, so leave out position, heading, flow and the method harmonics"
+                }
+                _ => "Use region = \"space\" or a tube, where a swimmer alone is axisymmetric",
+            };
+            return refuse("the scene is described without symmetry about the x axis", remedy);
         }
         let Method::Integral(method) = setup.method else {
             return refuse("the scene is computed on a grid", "Use the method of boundary integrals (`integral`)");
@@ -313,6 +318,7 @@ impl Model {
             tangents: vec![Vec2::ZERO; nodes],
             concentrations: vec![0.0; nodes],
             tensions: vec![0.0; nodes],
+            activity_slope: Vec2::ZERO,
             resistance: Resistance::new(*cortex, *friction, nodes, &setup.region).map(Box::new),
             forces: vec![Vec2::ZERO; nodes],
             velocities: vec![Vec2::ZERO; nodes],
@@ -454,6 +460,11 @@ impl Model {
             *c = m / tangent.length();
         }
         self.law.values(&self.concentrations, &mut self.tensions);
+        if self.activity_slope != Vec2::ZERO {
+            for ((tension, c), x) in self.tensions.iter_mut().zip(&self.concentrations).zip(&self.positions) {
+                *tension -= self.activity_slope.dot(*x) * c;
+            }
+        }
         let nodes = self.nodes();
         for (k, Nucleus { radius, centre, surface, .. }) in self.nuclei.iter_mut().enumerate() {
             *centre = Vec2::new(offsets[nodes + k], density[nodes + k]);
@@ -470,6 +481,11 @@ impl Model {
         let Self { flow, positions, tensions, forces, .. } = self;
         flow.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
         self.solve_flow()
+    }
+
+    /// Returns the derivatives of the arc length by the parameter at the nodes (length).
+    pub(crate) fn stretches(&self) -> impl Iterator<Item = f64> {
+        self.tangents.iter().map(|tangent| tangent.length())
     }
 
     /// Solves for the flow of the present forces.

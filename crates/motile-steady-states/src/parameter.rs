@@ -163,9 +163,11 @@ impl Parameter {
             Self::ViscosityInside => Some(inside),
             Self::ViscosityOutside => Some(setup.viscosity),
             Self::ViscosityRatio => Some(inside / setup.viscosity),
-            Self::Cortex => Some(droplet.cortex.viscosity).filter(|viscosity| *viscosity > 0.0),
-            Self::CortexShear => Some(droplet.cortex.shear_viscosity).filter(|viscosity| *viscosity > 0.0),
-            Self::Friction => Some(droplet.friction).filter(|friction| *friction > 0.0),
+            Self::Cortex => Some(droplet.cortex.viscosity),
+            Self::CortexShear => setup.region.is_axisymmetric().then_some(droplet.cortex.shear_viscosity),
+            // In the plane, a substrate without friction has no velocity at which it floats.
+            Self::Friction if setup.region == Region::Plane => Some(droplet.friction).filter(|value| *value > 0.0),
+            Self::Friction => (!setup.region.is_axisymmetric()).then_some(droplet.friction),
             Self::Width => match setup.region.without_slip() {
                 Region::Channel { width, .. } => Some(width),
                 _ => None,

@@ -440,6 +440,16 @@ impl Equations {
         right
     }
 
+    /// Returns the rate of turning that a unit change of each rate causes: the row of the inverse for turns.
+    pub(crate) fn turning(&self, system: &System) -> Result<DVector<f64>, SteadyError> {
+        let first = system.modes.part(self.part).len();
+        let mut wanted = DVector::zeros(self.len());
+        self.motions.iter().enumerate().for_each(|(k, motion)| wanted[first + k] = motion[2]);
+        let row = self.matrix.transpose().lu().solve(&wanted).filter(|x| x.iter().all(|value| value.is_finite()));
+        row.map(|row| -row)
+            .ok_or_else(|| SteadyError::singular("the turns of a swimmer", "Use another number of nodes"))
+    }
+
     /// Returns the number of equations.
     pub(crate) fn len(&self) -> usize {
         self.matrix.nrows()

@@ -150,7 +150,7 @@ impl OutlineFile {
 /// # Errors
 /// Returns [`OutlineError::Unreadable`] for a file that is not there, cannot be opened or is larger, and for a
 /// directory or device.
-#[inline]
+#[inline(always)]
 pub fn bytes_of(path: &Path) -> Result<Vec<u8>, OutlineError> {
     // So that pages in a browser do not carry readers that they cannot use.
     if cfg!(target_family = "wasm") {

@@ -165,7 +165,9 @@ impl Body for SpaceBody {
             ]
         };
         let count = ("the number of droplets".to_owned(), self.names.len() as f64);
-        std::iter::once(count).chain(self.droplets.droplets().iter().enumerate().flat_map(of)).collect()
+        let around = self.droplets.surroundings().map(|around| around.properties()).unwrap_or_default();
+        let around = around.into_iter().map(|(name, value)| (name.to_owned(), value));
+        std::iter::once(count).chain(self.droplets.droplets().iter().enumerate().flat_map(of)).chain(around).collect()
     }
 
     /// Returns the state, and the velocities if they are known, because the iterations for two viscosities reach the

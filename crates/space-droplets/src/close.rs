@@ -9,6 +9,8 @@ use crate::SpaceError;
 use crate::layers::Vectors;
 use crate::surface::{Surface, at, dot};
 
+/// Angle that a distance takes on the surface, below which more rings are needed.
+const TOUCHING: f64 = 1e-3;
 /// Iterations for the nearest point.
 const MOST: usize = 50;
 
@@ -90,6 +92,8 @@ pub(crate) fn nearest_on_grid(surface: &Surface, target: [f64; 3]) -> (Point, f6
 pub(crate) struct Close {
     degree: usize,
     rule: Vec<(f64, f64)>,
+    /// For targets that all but touch the surface.
+    fine: Vec<(f64, f64)>,
     /// Cosines and sines of each order at all longitudes.
     waves: [Vec<f64>; 2],
 }
@@ -153,7 +157,8 @@ impl Close {
             let angle = move |m: usize, j: usize| TAU * (m * j % columns) as f64 / columns as f64;
             (0..=degree).flat_map(|m| (0..columns).map(move |j| function(angle(m, j)))).collect::<Vec<f64>>()
         };
-        Self { degree, rule: gauss_legendre(rings), waves: [wave(f64::cos), wave(f64::sin)] }
+        let [rule, fine] = [rings, 2 * rings].map(gauss_legendre);
+        Self { degree, rule, fine, waves: [wave(f64::cos), wave(f64::sin)] }
     }
 
     /// Returns `INT G f dA/(8 pi)` at a target, for the coefficients of positions and of forces per area of the unit
@@ -255,7 +260,7 @@ impl Close {
         // theta = d sinh(y).
         let scale = (nearest.distance.abs() / nearest.stretch).max(1e-6);
         let end = (PI / scale).asinh();
-        for (x, weight) in &self.rule {
+        for (x, weight) in if scale < TOUCHING { &self.fine } else { &self.rule } {
             let y = 0.5 * (x + 1.0) * end;
             let theta = scale * y.sinh();
             let weight = 0.5 * weight * end * scale * y.cosh() * theta.sin() * TAU / columns as f64;

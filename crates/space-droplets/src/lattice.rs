@@ -18,15 +18,13 @@ use motile_base::{internal::Refuse, positive};
 use stokes_boundary_integrals::internal::{MOST_SHARES, each_share};
 
 use crate::SpaceError;
-use crate::surroundings::{Components, Sources, Surroundings, Targets, bounds, digits};
+use crate::surroundings::{Components, Sources, Surroundings, Targets, bounds, digits, edge};
 use near::Near;
 use split::Split;
 use waves::{Block, Columns, Share};
 
 /// The cut-off over the shortest side of the box: sums over waves and over neighbours take about equal time.
 const CUT_OFF: f64 = 0.6;
-/// Ratio of the longest to the shortest side above which the waves would be too many.
-const MOST_RATIO: f64 = 50.0;
 /// Exponent of the error of the flow of a droplet's own images, above which the box is too small.
 const LEAST_DIGITS: f64 = 9.0;
 
@@ -61,6 +59,9 @@ pub struct PeriodicBox {
 }
 
 impl PeriodicBox {
+    /// Largest ratio of the longest to the shortest side. Above it, the waves would be too many.
+    pub const LARGEST_RATIO: f64 = 50.0;
+
     /// Creates a box with these sides along x, y and z (length).
     ///
     /// # Errors
@@ -70,10 +71,14 @@ impl PeriodicBox {
             positive("a side of the box", side)?;
         }
         let [least, most] = size.iter().fold([f64::INFINITY, 0.0_f64], |[a, b], &side| [a.min(side), b.max(side)]);
-        if most > MOST_RATIO * least {
+        if most > Self::LARGEST_RATIO * least {
             let value = format!("{} x {} x {}", size[0], size[1], size[2]);
             let what = "the box is too long for its width";
-            return Err(SpaceError::refused(what, value, format!("Use sides that differ by less than {MOST_RATIO}")));
+            return Err(SpaceError::refused(
+                what,
+                value,
+                format!("Use sides that differ by less than {}", Self::LARGEST_RATIO),
+            ));
         }
         let cut_off = CUT_OFF * least;
         let split = Split::new();
@@ -139,6 +144,18 @@ impl Surroundings for PeriodicBox {
         Ok(())
     }
 
+    fn outline(&self, middle: [f64; 3], _: f64) -> Vec<Vec<[f64; 3]>> {
+        let corner =
+            |k: usize| std::array::from_fn(|i| middle[i] + if k >> i & 1 == 0 { -0.5 } else { 0.5 } * self.size[i]);
+        let ends = (0..8_usize).flat_map(|k| [1, 2, 4].map(|bit| (k, k | bit))).filter(|(from, to)| from != to);
+        ends.map(|(from, to)| edge(corner(from), corner(to))).collect()
+    }
+
+    fn properties(&self) -> Vec<(&'static str, f64)> {
+        let [x, y, z] = self.size;
+        vec![("the side of the box along x", x), ("the side of the box along y", y), ("the side of the box along z", z)]
+    }
+
     fn images(&self, displacement: [f64; 3], reach: f64, visit: &mut dyn FnMut([f64; 3])) {
         let range = |i: usize| {
             let low = ((-displacement[i] - reach) / self.size[i]).ceil();
@@ -157,13 +174,16 @@ impl Surroundings for PeriodicBox {
     }
 }
 
-/// Returns the wave vector 0 of a double layer: the flow inside of closed surfaces counts in the mean velocity.
+/// Returns the wave vector 0 of a double layer: the flow inside of closed surfaces counts in the mean velocity. Places
+/// count from their middle, so that the flux through a surface, which is zero up to its truncation, does no more the
+/// farther the droplet has come.
 fn mean_flow(source: &Sources<'_>, volume: f64) -> [f64; 3] {
     match source {
         Sources::Forces { .. } => [0.0; 3],
         Sources::Stresslets { places, normals, velocities } => std::array::from_fn(|i| {
             let through = |k: usize| (0..3).map(|j| normals[j][k] * velocities[j][k]).sum::<f64>();
-            -places[i].iter().enumerate().map(|(k, x)| x * through(k)).sum::<f64>() / volume
+            let middle = places[i].iter().sum::<f64>() / places[i].len().max(1) as f64;
+            -places[i].iter().enumerate().map(|(k, x)| (x - middle) * through(k)).sum::<f64>() / volume
         }),
     }
 }

@@ -6,6 +6,7 @@ mod gaps;
 mod repulsion;
 
 use std::ops::Range;
+use std::sync::{PoisonError, RwLock, RwLockReadGuard};
 
 use motile_base::internal::{Refuse, at_least};
 use motile_scene::{
@@ -19,7 +20,7 @@ use crate::close::{Close, Work};
 use crate::layers::Vectors;
 use crate::run::{RunReport, Runs, advance};
 use crate::surface::{at, dot, vectors};
-use crate::surroundings::{Source, Surroundings, Targets, add_imposed, lists, lists_mut};
+use crate::surroundings::{Lent, Source, Surroundings, Targets, add_imposed, emptied, lists, lists_mut};
 use crate::{SpaceDroplet, SpaceError};
 
 /// Several droplets in one unbounded fluid, each at its position ([`SpaceDroplet::with_position`]).
@@ -49,8 +50,10 @@ use crate::{SpaceDroplet, SpaceError};
 pub struct SpaceDroplets {
     droplets: Vec<SpaceDroplet>,
     repulsion: Option<Repulsion>,
-    surroundings: Option<Box<dyn Surroundings>>,
+    /// Sampled velocities use the same memory as runs.
+    surroundings: Option<RwLock<Box<dyn Surroundings>>>,
     sources: Vec<Source>,
+    lent: Lent,
     close: Vec<Close>,
     /// Flow that each droplet feels of the others.
     nears: Vec<Near>,
@@ -152,6 +155,7 @@ impl SpaceDroplets {
             repulsion: None,
             surroundings: None,
             sources,
+            lent: Lent::default(),
             close,
             nears,
             parts: Vec::new(),
@@ -183,27 +187,43 @@ impl SpaceDroplets {
         for (k, source) in self.sources.iter().enumerate() {
             surroundings.check(self.time, k, lists(&source.places))?;
         }
-        self.surroundings = Some(Box::new(surroundings));
+        self.surroundings = Some(RwLock::new(Box::new(surroundings)));
         self.known = false;
         Ok(self)
     }
 
+    /// Returns the surroundings, if there are any.
+    pub(crate) fn surroundings(&self) -> Option<RwLockReadGuard<'_, Box<dyn Surroundings>>> {
+        Some(self.surroundings.as_ref()?.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// Adds the flow that the surroundings add, at the nodes of all droplets.
     fn surround(&mut self) -> Result<(), SpaceError> {
-        let Self { droplets, surroundings, sources, time, .. } = self;
+        let Self { droplets, surroundings, sources, lent, time, .. } = self;
         let Some(surroundings) = surroundings else { return Ok(()) };
+        let surroundings = surroundings.get_mut().unwrap_or_else(PoisonError::into_inner);
         for (k, (source, droplet)) in sources.iter().zip(&mut *droplets).enumerate() {
             surroundings.check(*time, k, lists(&source.places))?;
             let external = &mut droplet.flow.external;
             add_imposed(&**surroundings, droplet.viscosities[1], &source.lab_nodes, external);
         }
-        let all: Vec<_> = sources.iter().map(Source::forces).collect();
+        let (mut all, mut targets) =
+            (emptied(std::mem::take(&mut lent.sources)), emptied(std::mem::take(&mut lent.targets)));
+        all.extend(sources.iter().map(Source::forces));
         let target = |(source, droplet)| {
             let (source, droplet): (&Source, &mut SpaceDroplet) = (source, droplet);
             Targets { places: lists(&source.lab_nodes), flow: lists_mut(&mut droplet.flow.external) }
         };
-        let mut targets: Vec<_> = sources.iter().zip(&mut *droplets).map(target).collect();
-        surroundings.add_flow(&all, &mut targets)
+        targets.extend(sources.iter().zip(&mut *droplets).map(target));
+        let outcome = surroundings.add_flow(&all, &mut targets);
+        (lent.sources, lent.targets) = (emptied(all), emptied(targets));
+        outcome
+    }
+
+    /// Returns lines that show the surroundings in pictures ([`Surroundings::outline`]); none in unbounded fluid.
+    #[must_use]
+    pub fn outline(&self, middle: [f64; 3], reach: f64) -> Vec<Vec<[f64; 3]>> {
+        self.surroundings().map(|around| around.outline(middle, reach)).unwrap_or_default()
     }
 
     /// Returns the droplets.

@@ -21,12 +21,14 @@ use motile_base::{finite, internal::Refuse};
 use stokes_boundary_integrals::internal::{MOST_SHARES, each_share};
 
 use crate::SpaceError;
-use crate::surroundings::{Components, Sources, Surroundings, Targets, digits};
+use crate::surroundings::{Components, Sources, Surroundings, Targets, digits, edge};
 use modes::{Block, Share};
 use rule::{Extent, Rule};
 
 /// Exponent of the error of the walls' flow, above which a droplet is too close to a wall.
 const LEAST_DIGITS: f64 = 9.0;
+/// Part of a picture's reach over which walls are shown, so that their corners are on it.
+const SHOWN: f64 = 0.6;
 /// Part of half of the slit that round-off may put a target beyond a wall.
 const ROUND_OFF: f64 = 1e-9;
 
@@ -91,7 +93,7 @@ impl Slit {
     }
 
     /// Returns the minimum distance of places from the walls (length), and the height of the wall there.
-    fn gap(&self, places: Components<'_>) -> [f64; 2] {
+    fn nearest(&self, places: Components<'_>) -> [f64; 2] {
         places[2].iter().flat_map(|z| [[z - self.lower, self.lower], [self.upper - z, self.upper]]).fold(
             [f64::INFINITY, self.lower],
             // Places that are not numbers are beyond a wall.
@@ -103,7 +105,7 @@ impl Slit {
 impl Surroundings for Slit {
     fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
         let half = self.half();
-        let least = |least: f64, places: Components<'_>| least.min(self.gap(places)[0]);
+        let least = |least: f64, places: Components<'_>| least.min(self.nearest(places)[0]);
         let gaps = [
             sources.iter().map(Sources::places).fold(f64::INFINITY, least),
             targets.iter().map(|target| target.places).fold(f64::INFINITY, least),
@@ -117,7 +119,11 @@ impl Surroundings for Slit {
             return Err(SpaceError::refused(what, value, "Use points between the walls"));
         }
         let extent = Extent::new(self.lower, half, gaps, sources, targets);
-        self.rule.update(&extent);
+        if !self.rule.update(&extent) {
+            let what = "the flow of droplets or at points that are so far apart along the walls would take too long";
+            let value = format!("{:.0} half widths of the slit", extent.reach);
+            return Err(SpaceError::refused(what, value, "Bring them closer together, or farther from the walls"));
+        }
         // Rings of wave vectors are dealt out in turn, because the outer ones have more angles.
         let Self { rule, shares, blocks, .. } = self;
         let len = shares.len();
@@ -139,7 +145,7 @@ impl Surroundings for Slit {
     }
 
     fn check(&self, time: f64, droplet: usize, places: Components<'_>) -> Result<(), SpaceError> {
-        let [gap, wall] = self.gap(places);
+        let [gap, wall] = self.nearest(places);
         if gap.is_nan() || gap <= 0.0 {
             let wall = format!("the wall at z = {wall}");
             let remedy = "Move it between the walls, make it smaller or the slit wider, or use shorter steps";
@@ -156,6 +162,26 @@ impl Surroundings for Slit {
             ));
         }
         Ok(())
+    }
+
+    fn gap(&self, places: Components<'_>) -> f64 {
+        self.nearest(places)[0]
+    }
+
+    fn outline(&self, middle: [f64; 3], reach: f64) -> Vec<Vec<[f64; 3]>> {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let sides = [self.lower, self.upper].into_iter().flat_map(|z| {
+            let corner = move |k: usize| {
+                let [x, y] = corners[k % 4];
+                [middle[0] + SHOWN * reach * x, middle[1] + SHOWN * reach * y, z]
+            };
+            (0..4).map(move |k| edge(corner(k), corner(k + 1)))
+        });
+        sides.collect()
+    }
+
+    fn properties(&self) -> Vec<(&'static str, f64)> {
+        vec![("the height of the lower wall", self.lower), ("the height of the upper wall", self.upper)]
     }
 }
 

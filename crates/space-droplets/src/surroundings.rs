@@ -119,6 +119,26 @@ pub trait Surroundings: Debug + Send + Sync {
         let _ = (displacement, reach, visit);
     }
 
+    /// Returns the minimum distance of places from the walls (length), negative beyond them. By default, there are no
+    /// walls, and the distance is infinite.
+    fn gap(&self, places: Components<'_>) -> f64 {
+        let _ = places;
+        f64::INFINITY
+    }
+
+    /// Returns names and values that a checkpoint keeps, so that it is not resumed in other surroundings. By default,
+    /// there are none.
+    fn properties(&self) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
+
+    /// Returns lines (length) that show walls or a box around a place in pictures, within a distance of it (length). By
+    /// default, there are none.
+    fn outline(&self, middle: [f64; 3], reach: f64) -> Vec<Vec<[f64; 3]>> {
+        let _ = (middle, reach);
+        Vec::new()
+    }
+
     /// Returns true if the surroundings look alike after any turn about the z axis and any shift along it, so that
     /// there can be steady axisymmetric swimmers. By default, they do not.
     fn symmetric_about_z(&self) -> bool {
@@ -201,6 +221,25 @@ impl Source {
             velocities: lists(&self.velocities),
         }
     }
+}
+
+/// Returns points of a straight line between two places.
+pub(crate) fn edge(from: [f64; 3], to: [f64; 3]) -> Vec<[f64; 3]> {
+    const POINTS: usize = 48;
+    let at = |k: usize| k as f64 / POINTS as f64;
+    (0..=POINTS).map(|k| std::array::from_fn(|i| from[i] + at(k) * (to[i] - from[i]))).collect()
+}
+
+/// Memory for lists of sources and targets, which borrow from droplets during one sum.
+#[derive(Debug, Default)]
+pub(crate) struct Lent {
+    pub(crate) sources: Vec<Sources<'static>>,
+    pub(crate) targets: Vec<Targets<'static>>,
+}
+
+/// Returns an empty list in the memory of another one, whose entries differ in their lifetimes only.
+pub(crate) fn emptied<T, U>(list: Vec<T>) -> Vec<U> {
+    list.into_iter().filter_map(|_| None).collect()
 }
 
 /// Returns three lists as slices.

@@ -15,7 +15,7 @@ use stokes_boundary_integrals::internal::{MOST_SHARES, each_share};
 
 use crate::SpaceError;
 use crate::surface::dot;
-use crate::surroundings::{Components, Sources, Surroundings, Targets};
+use crate::surroundings::{Components, Sources, Surroundings, Targets, edge};
 use moments::{Factors, Moments, NO_FLOW, Parity, add_solutions};
 use rule::{Node, Reach, Rules, Survey};
 use waves::{Functions, LANES, NONE, Points, Sums};
@@ -48,6 +48,7 @@ pub struct Tube {
     frame: [[f64; 3]; 3],
     mean_flow: f64,
     rules: Rules,
+    survey: Survey,
     forces: Points,
     stresslets: Points,
     targets: Points,
@@ -57,6 +58,8 @@ pub struct Tube {
 /// Waves that one thread works on.
 #[derive(Debug, Clone, Default)]
 struct Share {
+    /// The first of its waves.
+    first: usize,
     functions: Functions,
     sums: [Vec<Sums>; 2],
     factors: Vec<Factors>,
@@ -77,10 +80,11 @@ impl Tube {
             frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             mean_flow: 0.0,
             rules: Rules::new(TOLERANCE),
+            survey: Survey::default(),
             forces: Points::default(),
             stresslets: Points::default(),
             targets: Points::default(),
-            shares: vec![Share::default(); MOST_SHARES],
+            shares: (0..MOST_SHARES).map(|first| Share { first, ..Share::default() }).collect(),
         })
     }
 
@@ -276,20 +280,21 @@ impl Surroundings for Tube {
             }
         }
         self.load(sources, targets, reach.middle());
-        let Self { rules, forces, stresslets, targets: points, shares, radius, .. } = self;
+        let Self { rules, survey, forces, stresslets, targets: points, shares, radius, .. } = self;
         let all = [&*forces, &*stresslets];
         let share = &mut shares[0];
         let energies = |node: &Node, orders: usize, list: &mut Vec<f64>| share.energies(all, node, orders, list);
-        let Some(survey) = Survey::new(rules, energies)? else { return Ok(()) };
-        let nodes = rules.nodes(&survey, reach.length())?;
+        if !survey.update(rules, energies)? {
+            return Ok(());
+        }
+        let (survey, nodes) = (&*survey, rules.nodes(survey, reach.length())?);
         for share in &mut *shares {
             share.flow.clear();
             share.flow.resize(points.count.div_ceil(LANES), [[0.0; LANES]; 3]);
         }
         let number = shares.len();
-        let mut numbered: Vec<_> = shares.iter_mut().enumerate().collect();
-        each_share(&mut numbered, |(first, share)| {
-            for node in nodes.iter().skip(*first).step_by(number) {
+        each_share(shares, |share| {
+            for node in nodes.iter().skip(share.first).step_by(number) {
                 share.add(all, points, node, survey.orders(node.k));
             }
         });
@@ -329,6 +334,39 @@ impl Surroundings for Tube {
         let [x, y, _] = self.place(place);
         let speed = 2.0 * self.mean_flow * (1.0 - x * x - y * y);
         self.frame[2].map(|component| speed * component)
+    }
+
+    fn gap(&self, places: Components<'_>) -> f64 {
+        let gap = |k: usize| {
+            let [x, y, _] = self.place(at(&places, k));
+            self.radius * (1.0 - x.hypot(y))
+        };
+        (0..places[0].len()).map(gap).fold(f64::INFINITY, f64::min)
+    }
+
+    fn outline(&self, middle: [f64; 3], reach: f64) -> Vec<Vec<[f64; 3]>> {
+        let [first, second, axis] = self.frame;
+        let along = dot(axis, middle);
+        let place = |angle: f64, end: f64| {
+            let (sin, cos) = angle.sin_cos();
+            let across = |i: usize| self.radius * (cos * first[i] + sin * second[i]);
+            std::array::from_fn(|i| across(i) + (along + end) * axis[i])
+        };
+        let ends = [-reach, reach];
+        let circles = ends.map(|end| (0..=96).map(|k| place(PI * f64::from(k) / 48.0, end)).collect());
+        let sides = (0..8).map(|k| edge(place(PI * f64::from(k) / 4.0, -reach), place(PI * f64::from(k) / 4.0, reach)));
+        circles.into_iter().chain(sides).collect()
+    }
+
+    fn properties(&self) -> Vec<(&'static str, f64)> {
+        let [x, y, z] = self.frame[2];
+        vec![
+            ("the radius of the tube", self.radius),
+            ("the mean velocity in the tube", self.mean_flow),
+            ("the direction of the tube along x", x),
+            ("the direction of the tube along y", y),
+            ("the direction of the tube along z", z),
+        ]
     }
 
     fn symmetric_about_z(&self) -> bool {

@@ -21,7 +21,7 @@ from ._fit import Combination, FitResult, Profile, Samples, fit
 from ._fit_model import Free
 from ._measured import Measured, MeasuredConcentration, MeasuredModes, MeasuredOutline, MeasuredRun
 from ._motile import Setup, SteadyState, read_outline, steady
-from ._parts import box, channel, droplet, grid, harmonics, integral, layers, plane, space, tube
+from ._parts import box, channel, droplet, grid, harmonics, integral, layers, plane, slit, space, tube
 from ._scene import Droplet, Scene, SpaceDroplet, Track
 from ._steady import Branch, branch
 from ._sweep import Sweep, SweepRun, sweep
@@ -58,6 +58,7 @@ __all__ = [
     "layers",
     "plane",
     "read_outline",
+    "slit",
     "space",
     "steady",
     "sweep",

@@ -8,9 +8,13 @@ from typing import Any
 Part = dict[str, Any]
 
 
-def box(length: float, width: float | None = None) -> Part:
-    """Periodic box of length x width (length), a square one if only one side is given, centred on the origin."""
-    return {"box": {"lengths": [length, length if width is None else width]}}
+def box(length: float, width: float | None = None, height: float | None = None) -> Part:
+    """Periodic box of length x width (length), a square one if only one side is given, centred on the origin.
+
+    With a height (length), the box is in three dimensions.
+    """
+    sides = [length, length if width is None else width]
+    return {"box": {"lengths": sides if height is None else [*sides, height]}}
 
 
 def channel(length: float, width: float, **more: Any) -> Part:
@@ -33,8 +37,13 @@ def space() -> str:
 
 
 def tube(radius: float, **more: Any) -> Part:
-    """Tube of that radius (length) in three dimensions, for droplets of revolution; keywords as in scene files."""
+    """Tube of that radius (length) around the x axis, in three dimensions; keywords as in scene files."""
     return {"tube": {"radius": radius, **more}}
+
+
+def slit(lower: float, upper: float) -> Part:
+    """Two plane walls at the heights z = `lower` and z = `upper` (length) in three dimensions."""
+    return {"slit": {"lower": lower, "upper": upper}}
 
 
 def integral(**more: Any) -> Part:

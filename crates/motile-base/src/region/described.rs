@@ -11,7 +11,7 @@ use crate::Drive;
 pub(super) enum Described {
     Plane,
     Box {
-        lengths: [f64; 2],
+        lengths: Sides,
     },
     Channel {
         length: f64,
@@ -31,6 +31,43 @@ pub(super) enum Described {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         length: Option<f64>,
     },
+    Slit {
+        lower: f64,
+        upper: f64,
+    },
+}
+
+/// The sides of a box in two dimensions, or in three. In data, a list, so that each side has a key.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
+pub(super) enum Sides {
+    Plane([f64; 2]),
+    Space([f64; 3]),
+}
+
+impl TryFrom<Vec<f64>> for Sides {
+    type Error = String;
+
+    fn try_from(lengths: Vec<f64>) -> Result<Self, String> {
+        match lengths[..] {
+            [x, y] => Ok(Self::Plane([x, y])),
+            [x, y, z] => Ok(Self::Space([x, y, z])),
+            // As serde says it of lists with a fixed number of entries.
+            _ => Err(format!(
+                "invalid length {}, expected two lengths, [x, y], or three in three dimensions, [x, y, z]",
+                lengths.len()
+            )),
+        }
+    }
+}
+
+impl From<Sides> for Vec<f64> {
+    fn from(sides: Sides) -> Self {
+        match sides {
+            Sides::Plane(lengths) => lengths.to_vec(),
+            Sides::Space(lengths) => lengths.to_vec(),
+        }
+    }
 }
 
 /// One slip length for both walls, or one for each, the lower one first.
@@ -49,7 +86,8 @@ impl From<Described> for Region {
     fn from(described: Described) -> Self {
         match described {
             Described::Plane => Self::Plane,
-            Described::Box { lengths } => Self::Box { lengths },
+            Described::Box { lengths: Sides::Plane(lengths) } => Self::Box { lengths },
+            Described::Box { lengths: Sides::Space(lengths) } => Self::SpaceBox { lengths },
             Described::Channel { length, width, drive, slip } => {
                 let slip = slip.map_or([0.0; 2], |slip| match slip {
                     Slip::Both(slip) => [slip; 2],
@@ -59,6 +97,7 @@ impl From<Described> for Region {
             }
             Described::Space => Self::Space,
             Described::Tube { radius, shape, drive, length } => Self::Tube { radius, shape, drive, length },
+            Described::Slit { lower, upper } => Self::Slit { lower, upper },
         }
     }
 }
@@ -67,13 +106,15 @@ impl From<Region> for Described {
     fn from(region: Region) -> Self {
         match region {
             Region::Plane => Self::Plane,
-            Region::Box { lengths } => Self::Box { lengths },
+            Region::Box { lengths } => Self::Box { lengths: Sides::Plane(lengths) },
+            Region::SpaceBox { lengths } => Self::Box { lengths: Sides::Space(lengths) },
             Region::Channel { length, width, drive } => Self::Channel { length, width, drive, slip: None },
             Region::SlipChannel { length, width, drive, slip } => {
                 Self::Channel { length, width, drive, slip: Some(Slip::Each(slip)) }
             }
             Region::Space => Self::Space,
             Region::Tube { radius, shape, drive, length } => Self::Tube { radius, shape, drive, length },
+            Region::Slit { lower, upper } => Self::Slit { lower, upper },
         }
     }
 }

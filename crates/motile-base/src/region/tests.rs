@@ -14,6 +14,11 @@ fn lengths_and_periods_are_those_of_the_fluid() {
         assert_eq!((tube.lengths(), tube.periods()), ([16.0, 4.5], [None; 2]));
     }
     assert_eq!((Region::Plane.lengths(), Region::Plane.periods()), ([f64::INFINITY; 2], [None; 2]));
+    let slit = Region::Slit { lower: -2.0, upper: 1.0 };
+    assert_eq!((slit.lengths(), slit.periods(), slit.drive()), ([f64::INFINITY; 2], [None; 2], None));
+    let cuboid = Region::SpaceBox { lengths: [6.0, 5.0, 4.0] };
+    assert_eq!((cuboid.lengths(), cuboid.periods()), ([6.0, 5.0], [Some(6.0), Some(5.0)]));
+    assert!(!slit.is_axisymmetric() && !cuboid.is_axisymmetric());
 }
 
 #[test]
@@ -34,6 +39,10 @@ fn bad_numbers_are_refused_by_name() {
     for (region, name) in [
         (Region::Box { lengths: [0.0, 1.0] }, "the period in x"),
         (Region::Box { lengths: [1.0, f64::NAN] }, "the period in y"),
+        (Region::SpaceBox { lengths: [1.0, 1.0, -1.0] }, "the period in z"),
+        (Region::Slit { lower: f64::NAN, upper: 1.0 }, "the height of the lower wall"),
+        (Region::Slit { lower: 0.0, upper: f64::INFINITY }, "the height of the upper wall"),
+        (Region::Slit { lower: 1.0, upper: 1.0 }, "the distance of the upper wall"),
         (channel(-1.0, 1.0, Drive::ZeroFlux), "the period of the channel"),
         (channel(1.0, f64::INFINITY, Drive::ZeroFlux), "the width of the channel"),
         (channel(1.0, 1.0, Drive::Flux(f64::NAN)), "the imposed flux"),

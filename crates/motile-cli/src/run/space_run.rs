@@ -1,14 +1,14 @@
 //! Runs of droplets in three dimensions without symmetry.
 
 use anyhow::{Context, Result};
-use motile::base::internal::decimals;
+use motile::base::{Region, internal::decimals};
 use motile::scene::{Every, Handle, Scene, SceneError};
 use motile::setup::{AnyFlow, Particles, Setup};
 use motile::space_droplets::{SpaceBody, SpaceDroplet};
 use motile_output::{CsvTable, Look, SpaceAnimation, SpaceCsv, SpaceParaView, SpaceSnapshot};
 
 use super::job::{Job, Watch};
-use super::scene_run::caption;
+use super::scene_run::{View, caption};
 use super::{OutputFlags, Steadiness, Summary, say};
 
 /// Files for ParaView in a run.
@@ -62,7 +62,11 @@ impl SpaceRun {
             // Another unit would be wrong for droplets of another mean concentration.
             let mut means = setup.droplets.iter().filter_map(|droplet| Some(droplet.particles?.concentration));
             let concentration = means.next().filter(|first| means.all(|other| other == *first));
-            let look = job.look(Look { caption: caption(setup, ""), concentration, ..Look::of(setup) });
+            let region = match setup.region {
+                Region::Space => String::new(),
+                _ => View::of(setup).region,
+            };
+            let look = job.look(Look { caption: caption(setup, &region), concentration, ..Look::of(setup) });
             let film = SpaceAnimation::new(look.clone(), body);
             Ok((look, film, SpaceParaView::create(path("vtk"), body)?))
         });
@@ -132,11 +136,12 @@ impl SpaceRun {
         summary.put("steady", steady.json(), steady.criterion());
         summary.put("tail_shape", value("tail_shape")?, "of the highest degrees: above 1e-2, use a higher degree");
         summary.put("tail_particles", value("tail_particles")?, "of the highest degrees: above 3e-2, likewise");
+        let gaps = self.droplets.as_ref().unwrap_or(&self.trajectory).table().curve("time", "gap")?;
+        let least = gaps.into_iter().map(|(_, gap)| gap).fold(f64::NAN, f64::min);
+        if !least.is_nan() {
+            summary.put("minimum_gap", least, "between droplets and to walls, over the run (length)");
+        }
         if self.droplets.is_some() {
-            let gaps = self.droplets.iter().map(|all| all.table().curve("time", "gap")).next();
-            let gaps = gaps.transpose()?.unwrap_or_default();
-            let least = gaps.into_iter().map(|(_, gap)| gap).fold(f64::NAN, f64::min);
-            summary.put("minimum_gap", least, "between droplets, over the run (length)");
             let seen = self.scene.observe(self.body)?;
             let body = self.scene.body(self.body)?;
             for (name, seen) in body.names().iter().zip(seen).skip(1) {

@@ -61,6 +61,13 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     let rates: Vec<f64> = spectrum.modes.iter().take(LEADING).map(|mode| mode.value.re).collect();
     summary.put("growth_rates", rates, "of the leading modes (1/T); all are in spectrum.csv");
     summary.put("unstable_modes", spectrum.unstable(), "growing disturbances");
+    if let Ok(guidance) = state.guidance() {
+        let about = "turning rate over the slope of the activity across the way";
+        summary.put("turning_by_gradient", guidance.turning, about);
+        summary.put("speed_by_gradient", guidance.speed, "change of the speed over the slope along the way");
+        let about = "of the heading by the noise of the particles at strength 1 (1/T)";
+        summary.put("rotational_diffusion", guidance.rotational_diffusion, about);
+    }
     summary.put("residual", state.residual(), "largest rate of change left (1/T)");
     let origin = format!("{}; command: {}", setup.origin(), command());
     summary.put(ORIGIN_KEY, origin.as_str(), "of the results");

@@ -1,6 +1,8 @@
 //! Drawings, element by element.
 
-use tiny_skia::{ColorU8, FillRule, Paint, Pixmap, StrokeDash, Transform};
+use std::ops::Range;
+
+use tiny_skia::{ColorU8, Pixmap, StrokeDash};
 
 use crate::Rgb;
 use crate::drawing::font;
@@ -81,13 +83,20 @@ impl Drawing {
     /// Fills triangles, each in its colour, within `area`, whose edges are on whole pixels.
     pub(crate) fn triangles(&mut self, area: Rect, triangles: impl Iterator<Item = ([Pixel; 3], Rgb)>) {
         let Some(mut image) = Pixmap::new(area.width as u32, area.height as u32) else { return };
-        let place = Transform::from_translate(-area.left as f32, -area.top as f32);
+        let (width, height) = (image.width() as usize, f64::from(image.height()));
         for (corners, Rgb([r, g, b])) in triangles {
-            // Smooth edges would let the background through between neighbours.
-            let mut paint = Paint { anti_alias: false, ..Paint::default() };
-            paint.set_color_rgba8(r, g, b, 255);
-            if let Some(path) = joined(&[corners.to_vec()], true) {
-                image.fill_path(&path, &paint, FillRule::Winding, place, None);
+            // Centres of pixels are whole numbers. Smooth edges would let the background through between neighbours.
+            let corners = corners.map(|[x, y]| [x - area.left - 0.5, y - area.top - 0.5]);
+            let [low, high] = extent(corners.iter().map(|corner| corner[1]));
+            for row in whole([low, high], height) {
+                let ends = extent((0..3).filter_map(|side| {
+                    let ([x, y], [to_x, to_y]) = (corners[side], corners[(side + 1) % 3]);
+                    let along = (row as f64 - y) / (to_y - y);
+                    (0.0..=1.0).contains(&along).then_some(x + along * (to_x - x))
+                }));
+                for column in whole(ends, width as f64) {
+                    image.pixels_mut()[row * width + column] = ColorU8::from_rgba(r, g, b, 255).premultiply();
+                }
             }
         }
         self.shapes.push(Shape::Image { corner: [area.left, area.top], image });
@@ -98,4 +107,18 @@ impl Drawing {
         let area = |path| Shape::Area { path, colour: style.colour, opacity: 1.0, label: text.to_string() };
         self.shapes.extend(font::place(text, at, style).map(area));
     }
+}
+
+/// Rounding of places (pixels), so that a pixel on the side of two triangles belongs to at least one of them.
+const ROUNDING: f64 = 1e-6;
+
+/// Returns the least and greatest of some numbers.
+fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// Returns the whole numbers from `low` to `high` that are not negative and below `end`.
+fn whole([low, high]: [f64; 2], end: f64) -> Range<usize> {
+    let first = (low - ROUNDING).max(0.0).ceil();
+    first as usize..((high + ROUNDING).floor() + 1.0).clamp(first.min(end), end) as usize
 }

@@ -66,7 +66,8 @@ fn outline(text: &str, size: f64) -> (PathBuilder, f64) {
         let (part, height) = [(SMALL, -LOWER), (1.0, 0.0), (SMALL, RAISE)][(level + 1) as usize];
         (pen.scale, pen.at[1]) = (part * size / f64::from(face.units_per_em()), height * size);
         let glyph = face.glyph_index(character).unwrap_or(GlyphId(0));
-        face.outline_glyph(glyph, &mut pen);
+        // The table of the bundled font: `Face::outline_glyph` would bring readers of all others.
+        face.tables().glyf.and_then(|glyphs| glyphs.outline(glyph, &mut pen));
         pen.at[0] += pen.scale * f64::from(face.glyph_hor_advance(glyph).unwrap_or(0));
     }
     (pen.path, pen.at[0])

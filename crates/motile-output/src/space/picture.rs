@@ -29,8 +29,8 @@ const POINTS_PER_CM: f64 = 72.0 / 2.54;
 impl Look {
     /// Writes a picture of droplets in three dimensions, as SVG or PNG by the end of the name. It shows their surfaces,
     /// coloured by the concentration and shaded. Streamlines are of the flow in the horizontal plane through their
-    /// middle. The eye looks down at a slant, with x to the right. The paths of the centroids so far are drawn
-    /// (`tracks`; length).
+    /// middle. Grey lines show walls or a box. The eye looks down at a slant, with x to the right. The paths of the
+    /// centroids so far are drawn (`tracks`; length).
     ///
     /// # Errors
     /// Returns the errors of [`Look::write_picture`].
@@ -101,6 +101,11 @@ impl Look {
         }
         drawing.clip(Some(area));
         drawing.shade(area, |x, y| canvas.pixel((x - area.left) as usize, (y - area.top) as usize));
+        for line in &seen.outline {
+            for part in visible(line, &camera, &canvas, area) {
+                drawing.stroke(&part, &Pen::new(Rgb::GREY, 0.12 * em));
+            }
+        }
         let pen = Pen::new(Rgb::INK, (0.07 * em).max(0.8)).opacity(0.55);
         if self.streamlines
             && let Some(flow) = &seen.flow

@@ -26,6 +26,8 @@ pub struct SpaceSnapshot {
     /// Middle of the view, and half of its width (length).
     pub(crate) centre: [f64; 3],
     pub(crate) half: f64,
+    /// Lines that show walls or a box.
+    pub(crate) outline: Vec<Vec<[f64; 3]>>,
     /// Components along x and y of the flow in the plane.
     pub(crate) flow: Option<Samples<Vec2>>,
 }
@@ -58,6 +60,7 @@ impl SpaceSnapshot {
         let centre = bounds.map(|[low, high]| 0.5 * (low + high));
         let radius = seen.iter().map(|seen| seen.semi_axes[0]).fold(0.0, f64::max);
         let half = 0.5 * bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max) + MARGIN * radius;
+        let outline = droplets.outline(centre, half);
         let flow = if cells == 0 {
             None
         } else {
@@ -68,6 +71,6 @@ impl SpaceSnapshot {
             let velocities = droplets.velocities_at(&points, FLOW_ERROR).map_err(|error| other(error.into()))?;
             Some(Samples::new(raster, velocities.into_iter().map(|[x, y, _]| Vec2::new(x, y)).collect())?)
         };
-        Ok(Self { time, origin, meshes, centroids, centre, half, flow })
+        Ok(Self { time, origin, meshes, centroids, centre, half, outline, flow })
     }
 }

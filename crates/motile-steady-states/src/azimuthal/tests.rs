@@ -1,3 +1,5 @@
+use motile::active_interface::Cortex;
+use motile::active_interface::theory::{RoundDroplet, Sphere};
 use motile::prelude::*;
 use motile::setup::ExcludedVolume;
 
@@ -102,6 +104,69 @@ fn the_turning_rate_of_a_strong_swimmer_settles() {
         state.spectrum_around(1).unwrap().modes[0].value.re
     });
     assert!((coarse / fine - 1.0).abs() < 5e-3, "{coarse}, {fine}");
+}
+
+fn with_cortex(cortex: Cortex, activity: f64, viscosities: [f64; 2], nodes: usize) -> Setup {
+    let mut setup = setup(activity, viscosities, nodes);
+    setup.droplets[0].cortex = cortex;
+    setup
+}
+
+/// With a cortex as well, the rates of a sphere do not depend on the order: from Lamb's solution with the surface of
+/// Boussinesq and Scriven, which [`Sphere`] has.
+#[test]
+fn a_sphere_with_a_cortex_grows_at_the_same_rates_in_every_order() {
+    for (dilatational, shear, viscosities) in
+        [(50.0, 0.0, [100.0, 100.0]), (0.0, 50.0, [20.0, 100.0]), (100.0, 30.0, [100.0, 10.0])]
+    {
+        let cortex = Cortex { shear_viscosity: shear, ..Cortex::new(dilatational) };
+        let state = SteadyState::uniform(&with_cortex(cortex, -1.0, viscosities, 48)).unwrap();
+        let model = &System::new(state.setup()).unwrap().model;
+        let droplet = RoundDroplet {
+            radius: 1.0,
+            tension: model.law.value(100.0),
+            activity: -model.law.slope(100.0),
+            concentration: 100.0,
+            diffusivity: model.diffusion,
+            viscosity_inside: viscosities[0],
+            viscosity_outside: viscosities[1],
+        };
+        let theory = Sphere::new(droplet).unwrap().with_cortex(dilatational).unwrap();
+        let theory = theory.with_shear_viscosity(shear).unwrap();
+        for order in 0..3 {
+            let matrix = System::new(state.setup()).unwrap().around(state.point(), order).unwrap();
+            let found = eigenvalues(&matrix).unwrap();
+            for degree in order.max(1)..5 {
+                let [[aa, ab], [ba, bb]] = theory.growth_matrix(degree as u32).unwrap();
+                let (half, square) = (0.5 * (aa + bb), 0.25 * (aa - bb) * (aa - bb) + ab * ba);
+                let exact = half + Complex64::new(square, 0.0).sqrt();
+                let error = found.iter().map(|z| (z - exact).norm()).fold(f64::INFINITY, f64::min);
+                println!("{cortex:?} order {order}, degree {degree}: {exact} {error:.1e}");
+                assert!(error < 1e-8, "order {order}, degree {degree}: {exact} missed by {error:e}");
+            }
+        }
+    }
+}
+
+/// A cortex whose viscosity depends on the particles, on a swimmer that is no sphere: order 0 by differences of other
+/// equations, and in order 1 shifts and turns, which change no rate.
+#[test]
+fn swimmers_with_a_cortex_turn_and_shift_freely() {
+    let cortex = Cortex { shear_viscosity: 40.0, per_concentration: 0.3, ..Cortex::new(60.0) };
+    let errors = [48, 72, 96].map(|nodes| {
+        let state = SteadyState::find(&with_cortex(cortex, -1.3, [70.0, 100.0], nodes)).unwrap();
+        let leading = state.spectrum().unwrap().modes[0].value;
+        let matrix = System::new(state.setup()).unwrap().around(state.point(), 0).unwrap();
+        let found = eigenvalues(&matrix).unwrap();
+        let missed = found.iter().map(|z| (z - leading).norm()).fold(f64::INFINITY, f64::min);
+        let neutral = state.spectrum_around(1).unwrap().neutral;
+        println!("{nodes}: missed {missed:e} neutral {neutral:e}");
+        [missed, neutral * neutral]
+    });
+    for kind in 0..2 {
+        let [coarse, middle, fine] = errors.map(|error| error[kind]);
+        assert!(middle < 0.3 * coarse && fine < 0.3 * middle && fine < 1e-5, "{errors:?}");
+    }
 }
 
 #[test]

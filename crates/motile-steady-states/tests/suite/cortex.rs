@@ -124,7 +124,6 @@ fn modes_of_the_sphere_grow_as_lamb_has_it() {
         let error = worst(&setup, &[Symmetry::Symmetric], &rates);
         println!("{cortex:?}: {} rates, {error:.1e}", rates.len());
         assert!(error < 1e-7, "{error:.1e}");
-        assert!(SteadyState::uniform(&setup).unwrap().spectrum_around(1).is_err());
     }
 }
 

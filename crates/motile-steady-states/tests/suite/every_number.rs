@@ -7,7 +7,7 @@ use motile::setup::{ExchangeSetup, ExcludedVolume, FibreSetup, FieldEntry, Field
 use motile_steady_states::{Sensitivities, SteadyState};
 use toml::Value;
 
-/// Terms that a zero leaves out, so that they have no sensitivities.
+/// Terms that a zero leaves out: they have derivatives from above or none.
 const LEFT_OUT: [&str; 4] = [
     "droplets.0.cortex.viscosity",
     "droplets.0.cortex.per-concentration",
@@ -83,6 +83,11 @@ fn check(setup: &Setup) -> [usize; 2] {
         };
         known += 1;
         // By symmetry, what is measured of a drop in extension does not depend on a small shear.
+        if value == 0.0 && LEFT_OUT.contains(&key.as_str()) {
+            // Derivatives from above have a test of their own.
+            assert!(entry.derivatives.iter().all(|derivative| derivative.is_finite()), "{key}");
+            continue;
+        }
         if value == 0.0 {
             assert!(
                 entry.derivatives.iter().all(|derivative| derivative.abs() < 1e-7),

@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use active_interface::{ActiveDroplet, ActiveInterface, Curve, InitialConcentration};
 use elastic_solids::{Fibre, RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, SmearedContrast};
-use motile_base::{Region, Vec2, internal::spectrum::is_product, polygon};
+use motile_base::internal::spectrum::is_product;
+use motile_base::{Region, Vec2, polygon};
 use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
 use motile_interior::{GelInBox, ParticlesInDroplet};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
@@ -67,7 +68,7 @@ impl Setup {
     /// particles would collapse to a point ([`SetupError::Value`]); shapes that cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
-        let built = if self.lacks_symmetry() {
+        let built = if cfg!(feature = "without-symmetry") && self.lacks_symmetry() {
             self.assembled_in_space()?
         } else if self.suspension.is_empty() {
             self.assembled(self.droplets.len())?

@@ -2,6 +2,7 @@
 
 use active_interface::Motion;
 use ib_core::AnyKernel;
+use motile_base::internal::Refuse as _;
 use motile_base::{Region, TubeShape};
 use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
@@ -31,11 +32,18 @@ impl Setup {
     /// only shows when shapes are made is refused by [`Setup::build`].
     ///
     /// # Errors
-    /// Returns [`SetupError::Value`] with the key, the value and what to give instead.
+    /// Returns [`SetupError::Value`] with the key, the value and what to give instead. Without the feature
+    /// `without-symmetry`, returns an error for scenes that [`Setup::lacks_symmetry`].
     pub fn check(&self) -> Result<(), SetupError> {
         let top = Checked { place: "" };
         top.positive("viscosity", self.viscosity)?;
         if self.lacks_symmetry() {
+            if !cfg!(feature = "without-symmetry") {
+                let what = "this scene has droplets in three dimensions without symmetry, which this program was built \
+                            without";
+                let remedy = "Put the droplets on the x axis, heading along it, or use the program motile or Python";
+                return Err(SetupError::refused(what, "", remedy));
+            }
             return self.check_space();
         }
         self.check_friction()?;
@@ -76,8 +84,8 @@ impl Setup {
             Method::Layers(layers) => self.check_layers(layers)?,
             Method::Grid(grid) => self.check_grid(grid)?,
             Method::Harmonics(_) => {
-                let remedy = "spherical harmonics compute droplets in unbounded fluid in three dimensions. Use \
-                              region = \"space\", or the method integral";
+                let remedy = "spherical harmonics compute droplets in three dimensions. Use region = \"space\", a tube, a \
+                              slit or a box with three lengths, or the method integral";
                 return top.refuse("method", &"harmonics", remedy);
             }
         }
@@ -218,7 +226,7 @@ impl Setup {
     }
 
     /// Refuses a tube whose wall, drive or length cannot be.
-    fn check_tube(&self) -> Result<(), SetupError> {
+    pub(super) fn check_tube(&self) -> Result<(), SetupError> {
         let top = Checked { place: "" };
         let Region::Tube { shape, drive, .. } = self.region else { return Ok(()) };
         self.region.check().or_else(|error| top.refuse("region.tube", &"given", error.to_string()))?;

@@ -466,7 +466,7 @@ impl BodySetup for DropletSetup {
         checked.finite("angle", self.angle)?;
         let unused = [("position", "centre", self.position), ("heading", "angle", self.heading)];
         for (key, other, value) in unused {
-            let remedy = format!("three numbers need region = \"space\". Use {other} in this region");
+            let remedy = format!("three numbers need a region in three dimensions. Use {other} in this region");
             checked.refuse_if(value.is_some(), key, format!("{:?}", value.unwrap_or_default()), remedy)?;
         }
         checked.positive("viscosity", self.viscosity)?;

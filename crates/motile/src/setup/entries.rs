@@ -57,7 +57,7 @@ impl Setup {
     pub fn entries(&self) -> BTreeMap<String, String> {
         let mut entries = BTreeMap::new();
         #[cfg(feature = "toml")]
-        match toml::Table::try_from(self.kept()) {
+        match super::file::writer::table(&self.kept()) {
             Ok(table) => add("", &toml::Value::Table(table), &mut entries),
             // A seed that TOML has no number for.
             Err(_) => drop(entries.insert(DESCRIPTION.to_owned(), self.kept().hash())),

@@ -1,5 +1,8 @@
 //! Scene files: descriptions in TOML.
 
+mod reader;
+pub(super) mod writer;
+
 use std::path::Path;
 
 use motile_base::internal::Refuse as _;
@@ -66,7 +69,7 @@ impl Setup {
     /// Reading is compiled here once, and not again in each program.
     #[doc(hidden)]
     pub fn read(text: &str) -> Result<Self, toml::de::Error> {
-        toml::from_str(text)
+        reader::read(text)
     }
 
     /// Returns the description as a TOML text, with all entries written out. [`Setup::from_toml`] reads it back.
@@ -74,9 +77,7 @@ impl Setup {
     /// # Errors
     /// Returns [`SetupError::Refused`] for a seed above 9223372036854775807, which TOML has no number for.
     pub fn to_toml(&self) -> Result<String, SetupError> {
-        // By way of a table: the serializer of documents would be compiled for every part of the description.
-        let table = toml::Table::try_from(self).map_err(SetupError::file)?;
-        Ok(table.to_string())
+        Ok(writer::table(self).map_err(SetupError::file)?.to_string())
     }
 }
 

@@ -1,10 +1,14 @@
 //! Droplets in three dimensions without symmetry.
 
+use std::f64::consts::PI;
+
 use active_interface::{ConstantTension, Cortex, Flux, Motion, internal::SplitMix64};
-use motile_base::Region;
+use motile_base::{Region, TubeShape};
 use motile_scene::Scene;
 use serde::{Deserialize, Serialize};
-use space_droplets::{EdgeFollowing, LARGEST_DEGREE, SpaceBody, SpaceDroplet, SpaceDroplets, SpaceFluid};
+use space_droplets::{
+    EdgeFollowing, LARGEST_DEGREE, PeriodicBox, Slit, SpaceBody, SpaceDroplet, SpaceDroplets, SpaceFluid, Tube,
+};
 
 use super::{
     AnyFlow, Built, DropletSetup, DropletShape, ExcludedVolume, FlowSetup, IntegralMethod, Method, Particles, Setup,
@@ -25,9 +29,10 @@ const NOISE: usize = 4;
 /// Resolution of droplets in three dimensions without symmetry: shapes and concentrations are sums of spherical
 /// harmonics ([`space_droplets`]).
 ///
-/// You can choose this method in unbounded fluid in three dimensions. Scenes use it by themselves if a droplet has a
-/// `position` or `heading`, if its `centre` or `angle` is off the axis, or if a flow is imposed. Scenes that are
-/// axisymmetric about the x axis use boundary integrals, which are faster.
+/// You can choose this method in unbounded fluid in three dimensions and in a straight tube. Scenes use it by
+/// themselves if a droplet has a `position` or `heading`, if its `centre` or `angle` is off the axis, or if a flow is
+/// imposed. In a slit and in a box in three dimensions, there is no other method. Scenes that are axisymmetric about
+/// the x axis use boundary integrals, which are faster.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -81,8 +86,8 @@ impl DropletSetup {
 
 impl Setup {
     /// Returns true if the scene is of droplets in three dimensions without symmetry, which [`HarmonicsMethod`]
-    /// computes. These are scenes in unbounded fluid with this method, or with a droplet or a flow that breaks the
-    /// symmetry about the x axis.
+    /// computes. These are all scenes in a slit or in a box in three dimensions. In unbounded fluid and in a tube, these
+    /// are scenes with this method, or with a droplet or a flow that breaks the symmetry about the x axis.
     #[must_use]
     pub fn lacks_symmetry(&self) -> bool {
         let is_off = |droplet: &DropletSetup| {
@@ -90,7 +95,11 @@ impl Setup {
             position.is_some() || heading.is_some() || centre[1] != 0.0 || angle.sin().abs() > ON_AXIS
         };
         let breaks = || !self.flow.is_none() || self.droplets.iter().any(is_off);
-        self.region == Region::Space && (matches!(self.method, Method::Harmonics(_)) || breaks())
+        match self.region {
+            Region::Slit { .. } | Region::SpaceBox { .. } => true,
+            Region::Space | Region::Tube { .. } => matches!(self.method, Method::Harmonics(_)) || breaks(),
+            _ => false,
+        }
     }
 
     /// Returns the degree of the harmonics.
@@ -115,6 +124,7 @@ impl Setup {
     /// Refuses what has no meaning or no method for droplets without symmetry.
     pub(super) fn check_space(&self) -> Result<(), SetupError> {
         let top = Checked { place: "" };
+        self.check_surroundings()?;
         self.degree()?;
         let axis = "or use an axisymmetric scene with the method integral";
         let lists = [
@@ -146,19 +156,116 @@ impl Setup {
         top.refuse_if(self.mirror_symmetric, "mirror-symmetric", true, remedy)?;
         let remedy = "no bound on gaps is kept without symmetry. Remove the key, or use a repulsion";
         top.refuse_if(self.least_gap.is_some(), "least-gap", self.least_gap.unwrap_or_default(), remedy)?;
-        let FlowSetup { shear, extension, rotation, poiseuille, wall_velocity } = self.flow;
-        let checked = Checked { place: "flow" };
-        for (key, value) in [("shear", shear), ("extension", extension), ("rotation", rotation)] {
-            checked.finite(key, value)?;
-        }
-        let remedy = "in three dimensions, linear flows can be imposed. Use shear, extension and rotation";
-        checked.refuse_if(poiseuille.is_some(), "poiseuille", "given", remedy)?;
-        checked.refuse_if(wall_velocity.is_some(), "wall-velocity", "given", remedy)?;
+        self.check_flow_in_space()?;
         self.check_steps()?;
         for (number, droplet) in self.droplets.iter().enumerate() {
             droplet.check_in_space(&Checked { place: &format!("droplets[{number}]") }, axis)?;
         }
+        self.check_fits()?;
         self.check_apart()
+    }
+
+    /// Refuses walls that cannot be, and tubes that spherical harmonics do not have.
+    fn check_surroundings(&self) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
+        match self.region {
+            Region::Tube { radius, shape, drive, length } => {
+                top.positive("region.tube.radius", radius)?;
+                self.check_tube()?;
+                let remedy = "if a droplet is off the axis, the tube is straight and without ends. Remove the shape, \
+                              or put all droplets on the x axis, heading along it, with the method integral";
+                top.refuse_if(shape != TubeShape::Straight, "region.tube.shape", "given", remedy)?;
+                let remedy = "if a droplet is off the axis, a gradient acts over a tube without end, where it is the \
+                              gradient without droplets. Remove the length, or prescribe the flux";
+                let limited = length.filter(|_| drive.flux().is_none());
+                top.refuse_if(limited.is_some(), "region.tube.length", limited.unwrap_or_default(), remedy)
+            }
+            Region::Slit { lower, upper } => {
+                let checked = Checked { place: "region.slit" };
+                checked.finite("lower", lower)?;
+                checked.finite("upper", upper)?;
+                let remedy = format!("it is the height of the upper wall. Use a number above {lower}, the lower one");
+                checked.refuse_if(upper <= lower, "upper", upper, remedy)
+            }
+            Region::SpaceBox { lengths } => {
+                let (checked, ratio) = (Checked { place: "region.box" }, PeriodicBox::LARGEST_RATIO);
+                for (number, length) in lengths.into_iter().enumerate() {
+                    checked.positive(&format!("lengths[{number}]"), length)?;
+                }
+                let most = lengths.iter().fold(0.0_f64, |most, length| most.max(*length));
+                let narrow = lengths.iter().position(|length| most > ratio * length);
+                let (key, value) =
+                    narrow.map_or(("", 0.0), |k| (["lengths[0]", "lengths[1]", "lengths[2]"][k], lengths[k]));
+                let remedy = format!("this is less than a {ratio:.0}th of the longest side. Use a wider box");
+                checked.refuse_if(narrow.is_some(), key, value, remedy)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses flows that cannot be imposed.
+    fn check_flow_in_space(&self) -> Result<(), SetupError> {
+        let FlowSetup { shear, extension, rotation, poiseuille, wall_velocity } = self.flow;
+        let checked = Checked { place: "flow" };
+        for (key, value) in [("shear", shear), ("extension", extension), ("rotation", rotation)] {
+            checked.finite(key, value)?;
+            let remedy = match self.region {
+                Region::Space => continue,
+                Region::Tube { .. } => {
+                    "this flow would pass through the wall. Use region.tube.drive = { flux = 1 } in its place, or \
+                     region = \"space\""
+                }
+                Region::Slit { .. } => {
+                    "this flow would pass through the walls. Use region = \"space\", or remove the key"
+                }
+                _ => "this flow does not repeat in a periodic box. Use region = \"space\", or remove the key",
+            };
+            checked.refuse_if(value != 0.0, key, value, remedy)?;
+        }
+        let remedy = "in three dimensions, linear flows can be imposed on unbounded fluid. Use shear, extension and \
+                      rotation there, or a flux as region.tube.drive";
+        checked.refuse_if(poiseuille.is_some(), "poiseuille", "given", remedy)?;
+        checked.refuse_if(wall_velocity.is_some(), "wall-velocity", "given", remedy)
+    }
+
+    /// Refuses round droplets that cross a wall or do not fit into a box. Other shapes are compared when they are made.
+    fn check_fits(&self) -> Result<(), SetupError> {
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            let DropletShape::Round { radius } = droplet.shape else { continue };
+            let place = format!("droplets[{number}]");
+            let (checked, [x, y, z]) = (Checked { place: &place }, droplet.place());
+            let key = if droplet.position.is_some() { "position" } else { "centre" };
+            let size = format!("a droplet of radius {radius}");
+            match self.region {
+                Region::Tube { radius: wall, .. } => {
+                    let reach = y.hypot(z) + radius;
+                    let remedy = format!(
+                        "{size} reaches {reach:.4} from the axis there, beyond the wall of the tube at {wall}. Use a \
+                         wider tube or a smaller droplet, or move it to the axis"
+                    );
+                    checked.refuse_if(reach >= wall, key, format!("{:?}", [x, y, z]), remedy)?;
+                }
+                Region::Slit { lower, upper } => {
+                    let remedy = format!(
+                        "{size} reaches from z = {:.4} to {:.4} there, beyond the walls at {lower} and {upper}. Move \
+                         it between them, or use a smaller droplet or a wider slit",
+                        z - radius,
+                        z + radius
+                    );
+                    let crosses = z - radius <= lower || z + radius >= upper;
+                    checked.refuse_if(crosses, key, format!("{:?}", [x, y, z]), remedy)?;
+                }
+                Region::SpaceBox { lengths } => {
+                    let side = lengths.into_iter().fold(f64::INFINITY, f64::min);
+                    let remedy = format!(
+                        "it is wider than the box, whose shortest side is {side}. Use a smaller droplet or a larger box"
+                    );
+                    checked.refuse_if(2.0 * radius >= side, "shape.round.radius", radius, remedy)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     /// Refuses round droplets that overlap, before anything is computed. Other shapes are compared when they are made.
@@ -171,7 +278,14 @@ impl Setup {
                     continue;
                 };
                 let [here, there] = [droplet.place(), earlier.place()];
-                let distance = (0..3).map(|i| (here[i] - there[i]).powi(2)).sum::<f64>().sqrt();
+                let apart = |i: usize| match self.region {
+                    // The nearest periodic image.
+                    Region::SpaceBox { lengths } => {
+                        here[i] - there[i] - lengths[i] * ((here[i] - there[i]) / lengths[i]).round()
+                    }
+                    _ => here[i] - there[i],
+                };
+                let distance = (0..3).map(|i| apart(i).powi(2)).sum::<f64>().sqrt();
                 let remedy = format!(
                     "it overlaps or touches droplets[{other}]: their centres are {distance:.4} apart, and their radii \
                      add up to {:.4}. Move them apart",
@@ -195,6 +309,7 @@ impl Setup {
         if let Some(repulsion) = self.repulsion {
             all = all.with_repulsion(repulsion);
         }
+        let all = self.surrounded(all)?;
         let names: Vec<String> = (0..self.droplets.len()).map(|number| self.name_of(number)).collect();
         let flow: AnyFlow = Box::new(SpaceFluid::new(self.viscosity)?);
         let mut scene = Scene::new(flow).with_step_size(self.step).advanced_by(self.integrator);
@@ -202,6 +317,26 @@ impl Setup {
         let (droplets, solids, rigid_bodies, shells) = Default::default();
         let (fibres, gels, interfaces) = Default::default();
         Ok(Built { scene, droplets, solids, rigid_bodies, shells, fibres, gels, interfaces, space })
+    }
+
+    /// Returns the droplets in the surroundings that the region describes.
+    ///
+    /// A pressure gradient acts over a tube without end. There, the finite pressure that droplets add does not count,
+    /// so the mean flow is the same as without droplets.
+    fn surrounded(&self, droplets: SpaceDroplets) -> Result<SpaceDroplets, SetupError> {
+        Ok(match self.region {
+            Region::Tube { radius, drive, .. } => {
+                let mean_flow = match drive.flux() {
+                    Some(flux) => flux / (PI * radius * radius),
+                    None => -drive.gradient() * radius * radius / (8.0 * self.viscosity),
+                };
+                let tube = Tube::new(radius)?.along([1.0, 0.0, 0.0])?;
+                droplets.with_surroundings(tube.with_mean_flow(mean_flow)?)?
+            }
+            Region::Slit { lower, upper } => droplets.with_surroundings(Slit::new(lower, upper)?)?,
+            Region::SpaceBox { lengths } => droplets.with_surroundings(PeriodicBox::new(lengths)?)?,
+            _ => droplets,
+        })
     }
 
     /// Returns the name of a droplet in warnings and tables, with its number if another one has the same name.

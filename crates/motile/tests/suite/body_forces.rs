@@ -41,7 +41,13 @@ fn nodes(nodes: usize) -> Method {
 #[test]
 fn droplets_in_a_box_sink_as_they_should() {
     // Closed form at equal viscosities, boundary integrals at others.
-    for (side, ratio, exact) in [(4.0, 1.0, 0.033735771342), (8.0, 1.0, 0.0830352963801), (6.0, 0.1, 0.0755079898387)] {
+    for (side, ratio, exact) in [
+        (4.0, 1.0, 0.033735771342),
+        (8.0, 1.0, 0.0830352963801),
+        (16.0, 1.0, 0.136729352668),
+        (6.0, 0.1, 0.0755079898387),
+        (12.0, 0.1, 0.129810145033),
+    ] {
         let region = Region::Box { lengths: [side; 2] };
         for (axis, whole) in [(0, false), (1, true)] {
             let found = mobility(region, nodes(96), [0.3, -0.2], ratio, (axis, 1.0), whole);
@@ -52,16 +58,41 @@ fn droplets_in_a_box_sink_as_they_should() {
 
 #[test]
 fn droplets_in_a_channel_sink_as_they_should() {
-    for (drive, [y, ratio], axis, exact) in [
-        (Drive::ZeroGradient, [0.0, 1.0], 0, 0.080855427649),
-        (Drive::ZeroGradient, [0.0, 0.1], 1, 0.027597420997),
-        (Drive::ZeroGradient, [0.3, 10.0], 0, 0.053483647346),
-        (Drive::ZeroFlux, [0.3, 0.1], 0, 0.012186006477),
-        (Drive::ZeroFlux, [0.3, 1.0], 1, 0.01808971946),
+    // Period and width, height and viscosity ratio, axis, and the value of an independent program.
+    let (short, long) = ([6.0, 3.0], [12.0, 5.0]);
+    let (open, closed) = (Drive::ZeroGradient, Drive::ZeroFlux);
+    for (drive, [length, width], [y, ratio], axis, exact) in [
+        (open, short, [0.0, 1.0], 0, 0.080855427649),
+        (open, short, [0.0, 1.0], 1, 0.020053241176),
+        (open, short, [0.0, 0.1], 1, 0.027597420997),
+        (open, short, [0.0, 10.0], 0, 0.061847305758),
+        (open, short, [0.0, 10.0], 1, 0.011839336561),
+        (closed, short, [0.0, 1.0], 1, 0.020053241176),
+        (closed, short, [0.0, 0.1], 0, 0.009364832789),
+        (closed, short, [0.0, 0.1], 1, 0.027597420997),
+        (closed, short, [0.0, 10.0], 1, 0.011839336561),
+        (open, short, [0.3, 1.0], 0, 0.07686518771),
+        (open, short, [0.3, 1.0], 1, 0.01808971946),
+        (open, short, [0.3, 0.1], 1, 0.024984425788),
+        (open, short, [0.3, 10.0], 0, 0.053483647346),
+        (open, short, [0.3, 10.0], 1, 0.009026113591),
+        (closed, short, [0.3, 1.0], 1, 0.01808971946),
+        (closed, short, [0.3, 0.1], 0, 0.012186006477),
+        (closed, short, [0.3, 0.1], 1, 0.024984425788),
+        (closed, short, [0.3, 10.0], 1, 0.009026113591),
+        (open, long, [0.0, 1.0], 0, 0.102530638531),
+        (open, long, [0.0, 1.0], 1, 0.049954755677),
+        (open, long, [0.0, 0.1], 1, 0.06201131249),
+        (open, long, [0.0, 10.0], 0, 0.08830545863),
+        (open, long, [0.0, 10.0], 1, 0.037815615701),
+        (closed, long, [0.0, 1.0], 1, 0.049954755677),
+        (closed, long, [0.0, 0.1], 0, 0.039615497369),
+        (closed, long, [0.0, 0.1], 1, 0.06201131249),
+        (closed, long, [0.0, 10.0], 1, 0.037815615701),
     ] {
-        let region = Region::Channel { length: 6.0, width: 3.0, drive };
+        let region = Region::Channel { length, width, drive };
         let found = mobility(region, nodes(96), [0.7, y], ratio, (axis, 1.0), false);
-        assert!((found / exact - 1.0).abs() < 1e-8, "{drive:?} {y} {ratio} {axis}: {found} {exact}");
+        assert!((found / exact - 1.0).abs() < 1e-8, "{drive:?} {width} {y} {ratio} {axis}: {found} {exact}");
     }
 }
 

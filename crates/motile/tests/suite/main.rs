@@ -19,6 +19,8 @@ mod outline_files;
 mod revolution;
 mod solid_gap;
 #[cfg(feature = "toml")]
+mod surroundings;
+#[cfg(feature = "toml")]
 mod units;
 mod vesicles;
 mod viscous_shells;

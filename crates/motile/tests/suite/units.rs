@@ -193,6 +193,34 @@ shape.ellipse.half-axes = [1.2, 0.9]
 particles = { activity = -1.0, diffusion = 0.15 }
 "#,
     r#"
+region.slit = { lower = -1.5, upper = 1.8 }
+method.harmonics.degree = 4
+[[droplets]]
+position = [0.3, -0.2, 0.1]
+heading = [1.0, 0.5, 0.3]
+viscosity = 60.0
+particles = { activity = -1.0, excluded-volume.step = 2.0 }
+"#,
+    r#"
+region.box.lengths = [6.0, 3.0, 3.5]
+method.harmonics.degree = 4
+repulsion = { strength = 200.0, range = 0.2 }
+[[droplets]]
+position = [0.3, -0.2, 0.1]
+heading = [1.0, 0.5, 0.3]
+[[droplets]]
+position = [3.3, -0.2, 0.1]
+shape.ellipse.half-axes = [1.1, 0.9]
+"#,
+    r#"
+region.tube = { radius = 1.7, drive = { flux = 0.25 } }
+method.harmonics.degree = 4
+[[droplets]]
+centre = [0.3, 0.2]
+angle = 0.4
+particles = { activity = -1.0, diffusion = 0.15 }
+"#,
+    r#"
 region.box.lengths = [6.0, 6.0]
 method.grid = { spacing = 0.25, marker-spacing = 0.15, solver = "projection" }
 [[droplets]]

@@ -89,6 +89,52 @@ fn walls_that_are_not_closed_have_no_load() {
     assert!(scene.system_mut().channel_forces().expect("a flow").is_none());
 }
 
+/// Between flat sides at the distance w: the shear stress G w/2 and the force G w l/2 on each, whatever lies behind.
+#[test]
+fn flat_sides_have_the_shear_stress_of_poiseuille() {
+    let (gradient, width, period) = (-0.7, 2.0, 6.0);
+    let shape = ChannelShape::Straight { width };
+    let setup = in_channel(Drive::Gradient(gradient), WallSetup::channel(&shape, 0.1), Vec::new());
+    let walls = setup.build().expect("a scene").scene.system_mut().wall_stresses().expect("a flow");
+    assert_eq!(walls.len(), 2);
+    for wall in walls {
+        let exact = -0.5 * gradient * width;
+        assert!(wall.shear.iter().all(|shear| (shear / exact - 1.0).abs() < 1e-7), "{:?}", &wall.shear[..9]);
+        assert!((wall.force.x / (exact * period) - 1.0).abs() < 1e-7, "{:?}", wall.force);
+        assert!(!wall.closed && (wall.reach - 0.5 * width).abs() < 1e-12, "{}", wall.reach);
+    }
+}
+
+/// Stresses that are sampled at the walls balance the pressure drop, bear out the loads on obstacles, and settle: a
+/// wavy channel with an island and a droplet that swims.
+#[test]
+fn the_shear_stress_on_curved_walls_balances_the_pressure_drop() {
+    let (gradient, period) = (-0.9, 6.0);
+    let shape = ChannelShape::Sinusoidal { width: 2.4, amplitude: 0.2, waves: 1, phase: 0.4 };
+    let errors = [0.2, 0.1].map(|spacing| {
+        let mut walls = WallSetup::channel(&shape, spacing);
+        walls.push(WallSetup::new(SolidOutline::Disc { centre: [1.6, 0.3], radius: 0.35 }, 0.5 * spacing));
+        let droplet = DropletSetup {
+            centre: [-1.2, 0.1],
+            shape: DropletShape::Round { radius: 0.6 },
+            ..DropletSetup::active(-3.0)
+        };
+        let setup = in_channel(Drive::Gradient(gradient), walls, Vec::new());
+        let mut scene = Setup { droplets: vec![droplet], ..setup }.build().expect("a scene").scene;
+        let system = scene.system_mut();
+        let found = system.wall_stresses().expect("a flow");
+        let loads = system.obstacle_loads().expect("a flow");
+        let load = loads[2].expect("an obstacle");
+        let force: f64 = found.iter().map(|wall| wall.force.x).sum();
+        let carried = -gradient * period * (found[0].reach + found[1].reach);
+        let size = found.iter().map(|wall| wall.force.length()).fold(0.0, f64::max);
+        [(force - carried).abs() / size, load.force.distance(found[2].force) / load.force.length()]
+    });
+    println!("{errors:?}");
+    assert!(errors[1].into_iter().all(|error| error < 1e-5), "{errors:?}");
+    assert!((0..2).all(|k| errors[1][k] < 0.2 * errors[0][k].max(1e-6)), "{errors:?}");
+}
+
 /// In a fluid with friction: u = -(G/alpha) (1 - cosh(q y)/cosh(q w/2)), and on each wall the force l G tanh(q w/2)/q.
 #[test]
 fn friction_of_the_fluid_takes_part_in_the_balance() {

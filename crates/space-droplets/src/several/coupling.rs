@@ -1,5 +1,7 @@
 //! The flow between droplets, and the equation for their velocities.
 
+use std::sync::PoisonError;
+
 use sphere_harmonics::count;
 use stokes_boundary_integrals::internal::{each_share, gmres::Outcome};
 
@@ -7,9 +9,8 @@ use super::{Near, Row, SpaceDroplets};
 use crate::close::{add_direct, add_direct_double, nearest, nearest_on_grid};
 use crate::droplet::{fields, slices};
 use crate::flow::{MOST_ITERATIONS, TOLERANCE, converged};
-use crate::layers::Vectors;
 use crate::surface::{at, dot, put};
-use crate::surroundings::{Source, Targets, lists, lists_mut};
+use crate::surroundings::{Source, Sources, Targets, emptied, lists, lists_mut};
 use crate::{SpaceDroplet, SpaceError};
 
 /// Exponent of the error of the plain sum over the fine grid: closer targets are integrated about their nearest point.
@@ -93,32 +94,33 @@ impl SpaceDroplets {
     /// Adds the double layers that the surroundings reflect, of the velocities that [`SpaceDroplets::product`] has
     /// left.
     fn reflect(&mut self, out: &mut [f64]) -> Result<(), SpaceError> {
-        let Self { droplets, sources, surroundings, parts, .. } = self;
+        let Self { droplets, sources, surroundings, lent, parts, .. } = self;
         let Some(surroundings) = surroundings else { return Ok(()) };
+        let surroundings = surroundings.get_mut().unwrap_or_else(PoisonError::into_inner);
         for (droplet, source) in droplets.iter().zip(&mut *sources) {
             let [inside, outside] = droplet.viscosities;
             source.velocities.iter_mut().flatten().for_each(|value| *value *= outside - inside);
             source.doubles[0].iter_mut().for_each(|list| list.fill(0.0));
         }
-        let mut doubles: Vec<Vectors> =
-            sources.iter_mut().map(|source| std::mem::take(&mut source.doubles[0])).collect();
-        let differ = |droplet: &SpaceDroplet| droplet.viscosities[0] != droplet.viscosities[1];
-        let differing = sources.iter().zip(&*droplets).filter(|(_, droplet)| differ(droplet));
-        let all: Vec<_> = differing.map(|(source, _)| source.stresslets()).collect();
-        let target = |(source, doubles)| {
-            let (source, doubles): (&Source, &mut Vectors) = (source, doubles);
-            Targets { places: lists(&source.lab_nodes), flow: lists_mut(doubles) }
-        };
-        let mut targets: Vec<_> = sources.iter().zip(&mut doubles).map(target).collect();
+        let (mut all, mut targets) =
+            (emptied(std::mem::take(&mut lent.sources)), emptied(std::mem::take(&mut lent.targets)));
+        for (source, droplet) in sources.iter_mut().zip(&*droplets) {
+            let Source { places, normals, velocities, lab_nodes, doubles, .. } = source;
+            if droplet.viscosities[0] != droplet.viscosities[1] {
+                let [places, normals, velocities] = [&*places, &*normals, &*velocities].map(lists);
+                all.push(Sources::Stresslets { places, normals, velocities });
+            }
+            targets.push(Targets { places: lists(lab_nodes), flow: lists_mut(&mut doubles[0]) });
+        }
         let outcome = surroundings.add_flow(&all, &mut targets);
-        for (((droplet, source), doubles), part) in droplets.iter_mut().zip(sources).zip(doubles).zip(&*parts) {
+        (lent.sources, lent.targets) = (emptied(all), emptied(targets));
+        for ((droplet, source), part) in droplets.iter_mut().zip(sources).zip(&*parts) {
             let SpaceDroplet { nodes, flow, degree, .. } = droplet;
-            for (values, out) in doubles.iter().zip(out[part.clone()].chunks_exact_mut(count(*degree))) {
+            for (values, out) in source.doubles[0].iter().zip(out[part.clone()].chunks_exact_mut(count(*degree))) {
                 // The lengths fit: transforms cannot fail.
                 let _ = nodes.forward(values, &mut flow.scalar_concentration);
                 out.iter_mut().zip(&flow.scalar_concentration).for_each(|(out, value)| *out -= value);
             }
-            source.doubles[0] = doubles;
         }
         outcome
     }
@@ -187,7 +189,7 @@ impl SpaceDroplets {
         if from != to {
             shifts.push([0.0; 3]);
         }
-        if let Some(surroundings) = &self.surroundings {
+        if let Some(surroundings) = self.surroundings() {
             let (source, here) = (&self.sources[from], &self.sources[to]);
             let displacement = std::array::from_fn(|i| source.position[i] - here.position[i]);
             surroundings.images(displacement, source.reach + here.reach + distance, &mut |shift| shifts.push(shift));

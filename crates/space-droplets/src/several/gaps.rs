@@ -8,6 +8,10 @@ use crate::SpaceError;
 use crate::close::{Work, nearest, nearest_on_grid};
 use crate::droplet::fields;
 use crate::surface::{at, dot};
+use crate::surroundings::lists;
+
+/// Distance within which a droplet looks for its own images, over its size.
+const FARTHEST: f64 = 1e3;
 
 impl SpaceDroplets {
     /// Returns the smallest gap (length) between the surfaces of two droplets or their periodic images, from the points
@@ -24,8 +28,8 @@ impl SpaceDroplets {
         self.present_gap(first, second)
     }
 
-    /// Returns the smallest gap (length) between a droplet and all others in the state that was evaluated last; `None`
-    /// if there is no other one.
+    /// Returns the smallest gap (length) between a droplet and walls, all other droplets, and the periodic images of all,
+    /// in the state that was evaluated last; `None` if there is nothing else.
     ///
     /// # Errors
     /// Returns an error if the droplet does not exist.
@@ -44,21 +48,38 @@ impl SpaceDroplets {
                 best = Some(best.map_or(gap, |best| best.min(gap)));
             }
         }
-        Ok(best)
+        let Some(surroundings) = self.surroundings() else { return Ok(best) };
+        let gaps = [surroundings.gap(lists(&self.sources[droplet].places)), self.present_gap(droplet, droplet)?];
+        Ok(gaps.into_iter().filter(|gap| gap.is_finite()).chain(best).reduce(f64::min))
     }
 
-    /// Returns the gap between two droplets that exist, or their periodic images.
+    /// Returns the gap between two droplets that exist, or their periodic images; infinite for one droplet without
+    /// images.
     fn present_gap(&self, first: usize, second: usize) -> Result<f64, SpaceError> {
         let (here, other) = (&self.droplets[first], &self.droplets[second]);
+        let reaches = self.sources[first].reach + self.sources[second].reach;
         let (mut shifts, mut work) = (Vec::new(), Work::new(other.degree)?);
         let far = self.relative(first, second, [0.0; 3]);
-        self.find_shifts(second, first, dot(far, far).sqrt(), &mut shifts);
+        let mut distance = dot(far, far).sqrt();
+        self.find_shifts(second, first, distance, &mut shifts);
+        while shifts.is_empty() && distance < FARTHEST * reaches {
+            distance = 2.0 * distance.max(0.5 * reaches);
+            self.find_shifts(second, first, distance, &mut shifts);
+        }
         // The image that is nearest, at the point of the grid that is nearest to it.
         let mut best: Option<([f64; 3], Point, f64)> = None;
         for shift in shifts {
+            // Spheres around both, and around the other one.
+            let centre: [f64; 3] = std::array::from_fn(|i| far[i] - shift[i]);
+            if best.is_some_and(|best| dot(centre, centre).sqrt() - reaches > best.2) {
+                continue;
+            }
             for k in 0..here.surface.weights.len() {
                 let place = self.relative(first, second, at(&here.surface.positions, k));
-                let place = std::array::from_fn(|i| place[i] - shift[i]);
+                let place: [f64; 3] = std::array::from_fn(|i| place[i] - shift[i]);
+                if best.is_some_and(|best| dot(place, place).sqrt() - self.sources[second].reach > best.2) {
+                    continue;
+                }
                 let (start, distance) = nearest_on_grid(&other.surface, place);
                 if best.is_none_or(|best| distance < best.2) {
                     best = Some((place, start, distance));

@@ -1,5 +1,6 @@
 use active_interface::{ConstantTension, ContractileTension, ExcludedVolume};
-use motile_scene::integrator::RungeKuttaChebyshev;
+use motile_scene::integrator::{Midpoint, RungeKuttaChebyshev};
+use stokes_axisymmetric::{AxisymmetricFlow, Interface, MeridianCalculus, Settings, TensionPlacement, Vec2};
 
 use super::*;
 
@@ -179,6 +180,42 @@ fn evaluations_in_steady_state_do_not_allocate() {
     }
 }
 
+/// Calls a function on a thread of a pool, whose queue for other threads would allocate now and then.
+#[cfg(feature = "rayon")]
+fn in_pool(work: impl FnOnce() + Send) {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(work);
+}
+
+#[cfg(not(feature = "rayon"))]
+fn in_pool(work: impl FnOnce()) {
+    work();
+}
+
+#[test]
+fn evaluations_in_surroundings_do_not_allocate() {
+    in_pool(count_allocations_in_surroundings);
+}
+
+fn count_allocations_in_surroundings() {
+    let surroundings: [fn(SpaceDroplets) -> SpaceDroplets; 3] = [
+        |pair| pair.with_surroundings(crate::Slit::new(-1.8, 2.0).unwrap()).unwrap(),
+        |pair| pair.with_surroundings(crate::Tube::new(1.9).unwrap().along([1.0, 0.0, 0.0]).unwrap()).unwrap(),
+        |pair| pair.with_surroundings(crate::PeriodicBox::new([5.0, 3.0, 3.0]).unwrap()).unwrap(),
+    ];
+    for (k, surround) in surroundings.into_iter().enumerate() {
+        for ratios in [[1.0, 1.0], [5.0, 0.2]] {
+            let mut pair = surround(close_pair(6, ratios, 0.1).with_repulsion(Repulsion::new(2.0, 0.4).unwrap()));
+            for _ in 0..2 {
+                pair.known = false;
+                pair.evaluate().unwrap();
+            }
+            pair.known = false;
+            let counted = allocation_counter::measure(|| pair.evaluate().unwrap());
+            assert_eq!(counted.count_total, 0, "{k}: {ratios:?}");
+        }
+    }
+}
+
 #[cfg(feature = "rayon")]
 #[test]
 fn results_of_several_droplets_do_not_depend_on_the_number_of_threads() {
@@ -225,4 +262,86 @@ fn droplets_start_from_noise() {
     pair.advance(1.0, StepSize::Adaptive { tolerance: 1e-2 }, &mut RungeKuttaChebyshev::new(), |_| {}).unwrap();
     let after = pair.observe(0).unwrap();
     assert!((after.particles / before - 1.0).abs() < 1e-12 && after.speed.is_finite());
+}
+
+/// Two spheroids of different viscosities that face each other on an axis, against the axisymmetric code: velocities at
+/// the surface of the first one.
+#[test]
+fn droplets_on_one_axis_flow_as_in_the_axisymmetric_code() {
+    let (count, gap) = (160, 0.2);
+    let distance = 2.2 + gap;
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+    let viscosities = [[5.0, 1.0], [0.5, 1.0]];
+    // Particles gather on the sides that face away from the other.
+    let places = [0.0, distance];
+    let signs = [-1.0, 1.0];
+    let curve = |x: f64| -> Vec<Vec2> {
+        (0..count).map(|k| Vec2::new(x + 1.1 * angle(k).cos(), 0.95 * angle(k).sin())).collect()
+    };
+    let curves = places.map(curve);
+    let mut calculus = MeridianCalculus::new(count).unwrap();
+    let forces: Vec<Vec<Vec2>> = (0..2)
+        .map(|i| {
+            let tensions: Vec<f64> = (0..count).map(|k| 1.5 + 0.5 * signs[i] * angle(k).cos()).collect();
+            let mut forces = vec![Vec2::ZERO; count];
+            calculus.tension_forces(&curves[i], &tensions, TensionPlacement::Points, &mut forces).unwrap();
+            forces
+        })
+        .collect();
+    let mut flow = AxisymmetricFlow::new(1.0, Settings { nodes: count, ..Settings::default() }).unwrap();
+    flow.load((0..2).map(|i| Interface::closed(&curves[i], &forces[i], viscosities[i]))).unwrap();
+    flow.solve().unwrap();
+    let mut exact = vec![Vec2::ZERO; count];
+    flow.velocities(0, &mut exact).unwrap();
+    let largest = exact.iter().map(|u| u.x.hypot(u.y)).fold(0.0, f64::max);
+    let error = |degree: usize| {
+        let drop = |i: usize| {
+            let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+            let shape = |s: [f64; 3]| [0.95 * s[0], 0.95 * s[1], 1.1 * s[2]];
+            let drop = SpaceDroplet::shaped(degree, shape, viscosities[i], law).unwrap();
+            let drop = drop.with_particles(0.1, |s| 1.0 + signs[i] * s[2]).unwrap();
+            drop.with_position([0.0, 0.0, places[i]]).unwrap()
+        };
+        let mut pair = SpaceDroplets::new(vec![drop(0), drop(1)]).unwrap();
+        pair.evaluate().unwrap();
+        let difference = |k: usize| {
+            let (sin, cos) = angle(k).sin_cos();
+            let (_, velocity, _) = pair.droplets()[0].at([0.6 * sin, 0.8 * sin, cos]).unwrap();
+            let across = 0.6 * velocity[0] + 0.8 * velocity[1];
+            (velocity[2] - exact[k].x).hypot(across - exact[k].y) / largest
+        };
+        (0..=count / 2).step_by(8).map(difference).fold(0.0, f64::max)
+    };
+    let errors = [6, 10, 14].map(error);
+    assert!(errors.windows(2).all(|pair| pair[1] < 0.2 * pair[0]) && errors[2] < 2e-4, "{errors:?}");
+}
+
+/// Two swimmers that pass each other, and the same ones turned in space: their paths and headings turn with them, up to
+/// an error of the degree.
+#[test]
+fn encounters_do_not_depend_on_the_axes() {
+    let turned = [[0.8, 0.0, 0.6], [0.36, 0.8, -0.48], [-0.48, 0.6, 0.64]];
+    let plain = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let ends = |degree: usize, axes: [[f64; 3]; 3]| {
+        let turn = |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| (0..3).map(|j| v[j] * axes[j][i]).sum()) };
+        let drop = |place: [f64; 3], rear: [f64; 3]| {
+            let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+            let droplet = SpaceDroplet::sphere(degree, 1.0, [1.0, 1.0], law).unwrap();
+            let rear = turn(rear);
+            let droplet = droplet.with_particles(0.5, |s| 1.0 + 0.8 * dot(s, rear)).unwrap();
+            droplet.with_position(turn(place)).unwrap()
+        };
+        let droplets = vec![drop([-1.2, 0.0, 0.4], [-1.0, 0.0, 0.0]), drop([1.2, 0.0, -0.4], [1.0, 0.0, 0.0])];
+        let mut pair = SpaceDroplets::new(droplets).unwrap();
+        pair.advance(1.0, StepSize::Fixed(0.1), &mut Midpoint::default(), |_| {}).unwrap();
+        let seen = [0, 1].map(|k| pair.observe(k).unwrap());
+        seen.map(|seen| [seen.position, seen.velocity].map(|vector| axes.map(|axis| dot(axis, vector))))
+    };
+    let error = |degree: usize| {
+        let (exact, found) = (ends(degree, plain), ends(degree, turned));
+        let pairs = exact.iter().flatten().flatten().zip(found.iter().flatten().flatten());
+        pairs.map(|(exact, found)| (exact - found).abs()).fold(0.0, f64::max)
+    };
+    let errors = [error(6), error(10)];
+    assert!(errors[1] < 0.2 * errors[0] && errors[1] < 1e-5, "{errors:?}");
 }

@@ -14,6 +14,8 @@ const POINTS: f64 = 26.0;
 const POINTS_NEAR_WALLS: f64 = 3.0;
 /// More of them for each radian of the fastest wave, which are for points that are far apart.
 const POINTS_APART: f64 = 0.7;
+/// Most of them, with which there are some million wave vectors.
+const MOST_POINTS: usize = 4000;
 /// Angles more than a plane wave needs: two for each index of the Green's function, and two for a dipole.
 const MORE_ANGLES: usize = 6;
 
@@ -26,7 +28,7 @@ pub(super) struct Extent {
     /// Sum of the minimum distances of a source and of a target from the walls.
     gap: f64,
     /// Largest lateral distance of a source from a target, or more.
-    reach: f64,
+    pub(super) reach: f64,
 }
 
 impl Extent {
@@ -73,11 +75,14 @@ pub(super) struct Rule {
 }
 
 impl Rule {
-    /// Chooses the wave vectors for sources and targets.
-    pub(super) fn update(&mut self, extent: &Extent) {
+    /// Chooses the wave vectors for sources and targets. Returns false if they would be too many.
+    pub(super) fn update(&mut self, extent: &Extent) -> bool {
         // Targets on a wall, with sources on it as well, would need all wave vectors.
         let most = DIGITS / extent.gap.max(1e-3);
         let points = (POINTS + POINTS_NEAR_WALLS * most.sqrt() + POINTS_APART * most * extent.reach) as usize;
+        if points > MOST_POINTS {
+            return false;
+        }
         if self.gauss.len() != points {
             self.gauss = gauss_legendre(points);
         }
@@ -89,6 +94,7 @@ impl Rule {
             let area = k * most * t * weight * PI / angles as f64;
             Ring { k, weight: 2.0 * area / (4.0 * PI * PI * 8.0 * PI), angles }
         }));
+        true
     }
 }
 

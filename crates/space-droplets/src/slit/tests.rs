@@ -93,6 +93,31 @@ fn the_flow_on_the_walls_is_zero() {
     }
 }
 
+/// Far from a force along the walls, its flow is the one of Hele-Shaw, up to waves that decay as `exp(-pi r/H)`: with
+/// the pressure `p = 6 z'(H - z')/H^3 F.r/(2 pi r^2)`, the velocity is `-z (H - z)/2 grad p`.
+#[test]
+fn a_force_has_the_flow_of_hele_shaw_far_away() {
+    let (height, force) = (3.0, [0.6, -0.8, 0.0]);
+    for (low, at) in [(1.5, 0.7), (0.4, 2.1)] {
+        let errors = [3.0, 5.0].map(|widths: f64| {
+            let r = [0.28 * widths * height, 0.96 * widths * height];
+            let target = [r[0], r[1], 2.0 + at];
+            let mut out = vectors(1);
+            add_direct(&one([0.0, 0.0, 2.0 + low]), &one(force), &one(target), [0.0; 3], &mut out);
+            walls().add(&one([0.0, 0.0, 2.0 + low]), Strength::Forces(&one(force)), &one(target), &mut out);
+            let square = r[0] * r[0] + r[1] * r[1];
+            let along = (force[0] * r[0] + force[1] * r[1]) / square;
+            let strength = 6.0 * low * (height - low) / height.powi(3) / (2.0 * PI * square);
+            let exact = |i: usize| -0.5 * at * (height - at) * strength * (force[i] - 2.0 * along * r[i]);
+            let difference = (0..2).map(|i| (out[i][0] - exact(i)).abs()).fold(out[2][0].abs(), f64::max);
+            difference / exact(0).hypot(exact(1))
+        });
+        println!("{errors:?}");
+        // From 3 to 5 widths, the first wave falls by exp(2 pi).
+        assert!(errors[1] < 1e-4 && errors[1] < errors[0] / 200.0, "{errors:?}");
+    }
+}
+
 #[test]
 fn the_walls_flow_is_reciprocal() {
     let ([a, f, _], [b, g, _]) = (scattered(15, 0.1), scattered(15, 0.9));

@@ -3,9 +3,13 @@
 /// Step of the trapezoidal rule for K, whose error is exp(-pi^2/step).
 const STEP: f64 = 0.2;
 
+/// Usual length of lists.
+const LENGTH: usize = 640;
+
 /// Writes `I_n(x)/I_(n-1)(x)` for n = 1 .. up to the length of the list, by the recurrence downwards.
 pub(super) fn ratios_of_i(x: f64, ratios: &mut [f64]) {
-    let orders = ratios.len() as f64;
+    // The start is the same for lists of any usual length, so that results do not depend on what was asked for before.
+    let orders = ratios.len().next_multiple_of(LENGTH) as f64;
     // Errors of the start fall by the square of a ratio in each step, together as exp(-(n^2 - orders^2)/x).
     let mut n = (orders * orders + 40.0 * x).sqrt() as usize + 10;
     let mut ratio = x / (n as f64 + (n as f64).hypot(x));

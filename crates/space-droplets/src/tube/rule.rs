@@ -11,6 +11,8 @@ const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Most orders and largest wave number: a droplet that needs more is a few thousandths of a radius from the wall.
 const MOST_ORDERS: usize = 512;
 const LARGEST: f64 = 600.0;
+/// Rules that are kept: forces and the iterations for another viscosity need different ones.
+const MOST_RULES: usize = 16;
 /// Longest distance of droplets along the tube, in units of its radius.
 const LONGEST: f64 = 400.0;
 /// Ends of the pieces of the rule, which resolve the logarithms at zero and the poles close to the axis.
@@ -66,9 +68,16 @@ pub(super) struct Rules {
     /// Part of the velocities that may be left out.
     pub(super) tolerance: f64,
     ladder: Vec<Node>,
-    nodes: Vec<Node>,
-    /// End and length of the rule, in steps, and its orders.
+    kept: Vec<Rule>,
+    /// The rule that is replaced next, if there are many.
+    next: usize,
+}
+
+/// Nodes, with the end and the length of the rule, in steps, and its orders.
+#[derive(Debug, Clone, Default)]
+struct Rule {
     key: (usize, usize, usize),
+    nodes: Vec<Node>,
 }
 
 /// Which waves count for some sources.
@@ -77,24 +86,27 @@ pub(super) struct Survey {
     /// Wave numbers that were tried, with the orders that count.
     tried: Vec<(f64, usize)>,
     end: f64,
+    list: Vec<f64>,
 }
 
 impl Survey {
     /// Tries longer and longer waves, with a function that writes the work of the wall for so many orders of a node.
-    /// Returns nothing if there is no work at all.
-    pub(super) fn new(
+    /// Returns false if there is no work at all.
+    pub(super) fn update(
+        &mut self,
         rules: &mut Rules,
         mut energies: impl FnMut(&Node, usize, &mut Vec<f64>),
-    ) -> Result<Option<Self>, SpaceError> {
+    ) -> Result<bool, SpaceError> {
         // Work goes with the square of velocities.
         let negligible = rules.tolerance.powi(2);
-        let (mut survey, mut list) = (Self::default(), Vec::new());
+        let Self { tried, end, list } = self;
+        tried.clear();
         let (mut guess, mut reference) = (12, 0.0_f64);
         let (mut k, mut before) = (FIRST, 0.0);
         for step in 0.. {
             let total = loop {
                 let node = rules.step(step, k, guess)?;
-                energies(node, guess, &mut list);
+                energies(node, guess, list);
                 let total = list.iter().sum::<f64>();
                 if total.is_nan() {
                     return Err(too_close());
@@ -102,7 +114,7 @@ impl Survey {
                 let floor = negligible * reference.max(total);
                 if list[guess - 2..].iter().all(|energy| *energy <= floor) {
                     let used = list.iter().rposition(|energy| *energy > floor).map_or(1, |last| last + 2);
-                    survey.tried.push((k, used));
+                    tried.push((k, used));
                     guess = used + 2;
                     break total;
                 }
@@ -113,14 +125,14 @@ impl Survey {
             };
             reference = reference.max(total);
             if reference == 0.0 {
-                return Ok(None);
+                return Ok(false);
             }
             let floor = negligible * reference;
             if total <= floor {
                 // Between the last two, the logarithm falls along a line.
                 let part = (f64::ln(before / floor) / f64::ln(before / total.max(1e-3 * floor))).clamp(0.0, 1.0);
-                survey.end = if part.is_nan() { k } else { k / RATIO * RATIO.powf(part) };
-                return Ok(Some(survey));
+                *end = if part.is_nan() { k } else { k / RATIO * RATIO.powf(part) };
+                return Ok(true);
             }
             before = total;
             k *= RATIO;
@@ -128,7 +140,7 @@ impl Survey {
                 return Err(too_close());
             }
         }
-        Ok(None)
+        Ok(false)
     }
 
     /// Returns the number of orders at a wave number.
@@ -142,7 +154,7 @@ impl Survey {
 impl Rules {
     /// Creates rules without nodes yet.
     pub(super) fn new(tolerance: f64) -> Self {
-        Self { tolerance, ladder: Vec::new(), nodes: Vec::new(), key: (0, 0, 0) }
+        Self { tolerance, ladder: Vec::new(), kept: Vec::new(), next: 0 }
     }
 
     /// Returns a node of the survey.
@@ -158,29 +170,43 @@ impl Rules {
     /// Returns the rule for a survey and an extent along the axis.
     pub(super) fn nodes(&mut self, survey: &Survey, length: f64) -> Result<&[Node], SpaceError> {
         if length > LONGEST {
-            let what = "the droplets are too far apart along the tube";
+            let what = "droplets, or the points where their flow is asked for, are too far apart along the tube";
             let value = format!("{length:.0} of its radii");
             return Err(SpaceError::refused(what, value, format!("Use at most {LONGEST} radii")));
         }
         let orders = survey.tried.iter().map(|tried| tried.1).max().unwrap_or(1);
         let key = ((survey.end / 2.0).ceil() as usize, (4.0 * length).ceil() as usize, orders.next_multiple_of(8));
-        if self.key != key {
-            self.nodes.clear();
+        let known = self.kept.iter().position(|rule| rule.key == key);
+        let place = known.unwrap_or(self.next);
+        if known.is_none() {
+            self.next = (place + 1) % MOST_RULES;
+            if place == self.kept.len() {
+                self.kept.push(Rule::default());
+            }
+            // A rule that fails half-way has no key.
+            let mut nodes = std::mem::take(&mut self.kept[place]).nodes;
+            nodes.clear();
             let (end, length) = (2.0 * key.0 as f64, 0.25 * key.1 as f64);
             let mut start = 0.0;
             for stop in PIECES.into_iter().map(|stop| stop.min(end)).chain([end]) {
                 if stop > start {
-                    self.piece(start, stop, length, key.2)?;
+                    self.add_piece([start, stop], length, key.2, &mut nodes)?;
                     start = stop;
                 }
             }
-            self.key = key;
+            self.kept[place] = Rule { key, nodes };
         }
-        Ok(&self.nodes)
+        Ok(&self.kept[place].nodes)
     }
 
     /// Adds the nodes of a piece.
-    fn piece(&mut self, start: f64, stop: f64, length: f64, orders: usize) -> Result<(), SpaceError> {
+    fn add_piece(
+        &self,
+        [start, stop]: [f64; 2],
+        length: f64,
+        orders: usize,
+        nodes: &mut Vec<Node>,
+    ) -> Result<(), SpaceError> {
         let width = stop - start;
         // Waves turn by width * length; near zero, k = t^4.
         let power = if start == 0.0 { 4 } else { 1 };
@@ -190,7 +216,7 @@ impl Rules {
             let t = 0.5 * (1.0 + x);
             let k = start + width * t.powi(power);
             let weight = 0.5 * weight * width * f64::from(power) * t.powi(power - 1);
-            self.nodes.push(Node::new(k, weight, orders)?);
+            nodes.push(Node::new(k, weight, orders)?);
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::observables::{Convention, Observables, observe};
 use motile::analysis::trajectory::{Evidence, RegimeCriteria};
 use motile::base::Region;
-use motile::scene::{Handle, Hydrodynamics, Scene};
+use motile::scene::{Handle, Hydrodynamics, Scene, System, WallStress};
 use motile::setup::AnyFlow;
 
 use super::{First, SceneRun};
@@ -143,7 +143,16 @@ impl SceneRun {
                 "of the fluid on it about its centroid, at the end",
             );
         }
+        let shaped = system.wall_stresses()?;
+        for (number, wall) in shaped.iter().enumerate().take(MOST_BODIES) {
+            if !wall.closed {
+                summary.put(&format!("walls.{number}_force_x"), wall.force.x, "of the fluid on it, at the end");
+            }
+            let about = "largest in size along it, at the end (stress)";
+            summary.put(&format!("walls.{number}_shear_max"), wall.largest(), about);
+        }
         let Some(forces) = system.channel_forces()? else {
+            put_balance_between(summary, system, &shaped);
             let domain = system.hydrodynamics().fluid_view().domain;
             if let (Some(length), Some(height), None) = (domain.periods[0], domain.periods[1], domain.walls) {
                 // The mean pressure gradient of a box carries the forces in it.
@@ -294,4 +303,25 @@ pub(super) fn area(scene: &mut Scene<AnyFlow>, region: Region, droplet: Handle<A
         return Ok(scene.observe(droplet)?.area);
     }
     Ok(scene.system_mut().deformation(droplet)?.area)
+}
+
+/// Adds the pressure drop along a channel between two sides that are not straight, and the balance with the forces on
+/// both sides, on obstacles and on bodies.
+fn put_balance_between<H: Hydrodynamics>(summary: &mut Summary, system: &System<H>, walls: &[WallStress]) {
+    let sides: Vec<&WallStress> = walls.iter().filter(|wall| !wall.closed).collect();
+    let (Some(period), [_, _]) = (system.hydrodynamics().fluid_view().domain.periods[0], sides.as_slice()) else {
+        return;
+    };
+    let drop = 0.0 - system.report().mean_pressure_gradient[0] * period;
+    summary.put("pressure_drop", drop, "over a period, at the end (stress)");
+    let carried = drop * sides.iter().map(|wall| wall.reach).sum::<f64>();
+    let pulls = system.markers().forces();
+    let on_walls: f64 = walls.iter().map(|wall| wall.force.x).sum();
+    let on_bodies = -pulls.iter().map(|force| force.x).sum::<f64>();
+    // Forces that cancel leave round-off of all of them.
+    let all = walls.iter().map(|wall| wall.force.x.abs()).chain(pulls.iter().map(|force| force.length()));
+    let scale = all.sum::<f64>().max(carried.abs());
+    let balance = if scale > 0.0 { (carried - on_walls - on_bodies) / scale } else { 0.0 };
+    let about = "pressure drop times the mean width less forces, over the sum of all forces";
+    summary.put("force_balance", balance, about);
 }

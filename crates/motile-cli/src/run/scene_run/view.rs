@@ -34,6 +34,8 @@ impl View {
             }
             Region::Tube { radius, .. } => format!("W = {radius}"),
             Region::Space => "three dimensions".to_owned(),
+            Region::Slit { lower, upper } => format!("w = {}", upper - lower),
+            Region::SpaceBox { lengths: [x, y, z] } => format!("{x} × {y} × {z}"),
             _ => String::new(),
         };
         Self { spacing, region }

@@ -1,5 +1,3 @@
-use std::f64::consts::PI;
-
 use super::*;
 use crate::prelude::*;
 
@@ -88,7 +86,7 @@ fn what_it_does_not_have_is_refused_with_its_key() {
     refused(&|setup| setup.region = Region::Plane, "method = harmonics: ");
     refused(
         &|setup| (setup.region, setup.method) = (Region::Plane, Method::default()),
-        "droplets[0].heading = [0.0, 0.0, 1.0]: three numbers need region",
+        "droplets[0].heading = [0.0, 0.0, 1.0]: three numbers need a region",
     );
 }
 
