@@ -173,7 +173,8 @@ def test_covered_keys_are_those_of_sensitivities() -> None:
         "viscosity_out",
         "radius",
     }
-    assert from_core == own | {"width", "length"} and own <= set(COVERED.values())
+    added = {"cortex", "friction", "width", "length"}
+    assert from_core == own | added and own <= set(COVERED.values())
 
 
 def draws(count: int) -> tuple[int, int]:
