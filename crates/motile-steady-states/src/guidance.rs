@@ -1,4 +1,4 @@
-//! What guides a swimmer: weak gradients of the activity, and the noise of its particles.
+//! Guidance of a swimmer by weak gradients of the activity and by the noise of its particles.
 
 use motile_base::{PeriodicSeries, Region, Vec2};
 use nalgebra::DVector;

@@ -116,7 +116,7 @@ pub(super) fn swing() -> Result<Vec<Table>> {
     Ok(vec![table])
 }
 
-/// The same in tubes of other radii, and for longer.
+/// Swings in tubes of other radii, and for longer.
 pub(super) fn tubes() -> Result<Vec<Table>> {
     let header = "radius | degree | start | time | amplitude | sense | smallest gap";
     let mut table = Table::new("Swimmers of activity -2 and A = 4 that swing in tubes", header);

@@ -1,4 +1,4 @@
-//! What two threads gain.
+//! Gain of two threads.
 
 use std::cell::RefCell;
 use std::time::Duration;

@@ -109,7 +109,7 @@ impl Drawing {
     }
 }
 
-/// Rounding of places (pixels), so that a pixel on the side of two triangles belongs to at least one of them.
+/// Rounding of places (pixels), so that a pixel on the side of two triangles belongs to one of them or both.
 const ROUNDING: f64 = 1e-6;
 
 /// Returns the least and greatest of some numbers.

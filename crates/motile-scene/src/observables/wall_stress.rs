@@ -9,7 +9,7 @@ use crate::{Hydrodynamics, SceneError, System, WallOutline};
 /// Distances from a wall at which the flow is sampled, over the distance of the wall's points.
 const OFFSET: f64 = 1e-3;
 
-/// What the fluid does to a rigid wall at rest that is not one of the straight walls of the region.
+/// Stresses of the fluid on a rigid wall at rest that is not one of the straight walls of the region.
 ///
 /// All is per unit of depth, and for one period of a wall that is not closed. Of such a wall only the side counts on
 /// which the outline says that the fluid is: what lies behind it, up to the straight wall of the region, does not.

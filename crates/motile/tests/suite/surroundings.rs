@@ -159,7 +159,7 @@ fn a_box_of_copies_has_the_same_flow() {
     }
 }
 
-/// What cannot be is refused with its key, before any work.
+/// Surroundings that cannot exist are refused with their key, before any work.
 #[test]
 fn surroundings_that_cannot_be_are_refused() {
     let refused = |region: Region, change: &dyn Fn(&mut Setup), start: &str, remedy: &str| {
