@@ -242,7 +242,7 @@ impl Element {
     }
 
     /// Returns the deformation gradient of an element that is not inverted; `triangle` is its index, for messages.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn deformation(&self, triangle: usize, positions: &[Vec2]) -> Result<DeformationGradient, SolidError> {
         DeformationGradient::checked(self.gradient(positions)).ok_or_else(|| self.inverted(triangle, positions))
     }
