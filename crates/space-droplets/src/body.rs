@@ -59,6 +59,11 @@ impl SpaceBody {
         &self.droplets
     }
 
+    /// Returns the number of coefficients of velocities.
+    fn velocities_len(&self) -> usize {
+        self.droplets.droplets().iter().map(|droplet| droplet.flow.velocities.len()).sum()
+    }
+
     /// Returns the names of the droplets.
     #[must_use]
     pub fn names(&self) -> &[String] {
@@ -170,8 +175,8 @@ impl Body for SpaceBody {
         std::iter::once(count).chain(self.droplets.droplets().iter().enumerate().flat_map(of)).chain(around).collect()
     }
 
-    /// Returns the state, and the velocities if they are known, because the iterations for two viscosities reach the
-    /// same ones to a tolerance only.
+    /// Returns the state, the velocities if they are known, and earlier states, because the iterations for two
+    /// viscosities reach the same velocities to a tolerance only.
     fn save(&self) -> SavedState {
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);
@@ -179,16 +184,21 @@ impl Body for SpaceBody {
         if known {
             self.droplets.droplets().iter().for_each(|droplet| reals.extend_from_slice(&droplet.flow.velocities));
         }
-        SavedState { reals, counts: vec![u64::from(known)] }
+        let (count, earlier) = self.droplets.reflections.save(self.velocities_len());
+        reals.extend(earlier);
+        SavedState { reals, counts: vec![u64::from(known), count] }
     }
 
     fn load(&mut self, _view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
-        let [known] = saved.counts_of()?;
-        let len = self.state_len();
-        let velocities: usize = self.droplets.droplets().iter().map(|droplet| droplet.flow.velocities.len()).sum();
-        let reals = saved.reals_of(if known == 1 { len + velocities } else { len })?;
+        let [known, count] = saved.counts_of()?;
+        let (len, velocities) = (self.state_len(), self.velocities_len());
+        let end = if known == 1 { len + velocities } else { len };
+        let reals = saved.reals_of(saved.reals.len().max(end))?;
         self.read_state(&reals[..len])?;
-        self.droplets.start_from((known == 1).then_some(&reals[len..]));
+        self.droplets.start_from((known == 1).then_some(&reals[len..end]));
+        if !self.droplets.reflections.load([len, velocities], count, &reals[end..]) {
+            return Err(saved.reals_of(end).err().map_or(BodyError::Other("of another body".into()), BodyError::from));
+        }
         Ok(())
     }
 }

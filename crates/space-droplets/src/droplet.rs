@@ -11,6 +11,7 @@ use stokes_boundary_integrals::internal::gmres::Gmres;
 use crate::SpaceError;
 use crate::flow::Flow;
 use crate::layers::{Layers, Vectors};
+use crate::reflections::Reflections;
 use crate::surface::Surface;
 use crate::surroundings::{Around, Source, Surroundings, lists};
 
@@ -54,6 +55,8 @@ pub struct SpaceDroplet {
     pub(crate) gmres: Gmres,
     pub(crate) flow: Flow,
     pub(crate) around: Option<Box<Around>>,
+    /// The error of the last evaluation for an integrator.
+    pub(crate) failure: Option<SpaceError>,
 }
 
 /// Returns the three fields of coefficients at the start of a list.
@@ -123,6 +126,7 @@ impl SpaceDroplet {
             gmres: Gmres::default(),
             flow,
             around: None,
+            failure: None,
         };
         let positions: Vec<[f64; 3]> = droplet.surface.grid.points().map(|s| position(s.direction())).collect();
         let n = count(degree);
@@ -204,7 +208,8 @@ impl SpaceDroplet {
         let mut source = Source::new(&self);
         source.update(&mut self)?;
         surroundings.check(self.time, 0, lists(&source.places))?;
-        self.around = Some(Box::new(Around { surroundings: Box::new(surroundings), source }));
+        let reflections = Reflections::default();
+        self.around = Some(Box::new(Around { surroundings: Box::new(surroundings), source, reflections }));
         self.flow.known = false;
         Ok(self)
     }
@@ -252,6 +257,11 @@ impl SpaceDroplet {
         self.finish()
     }
 
+    /// Returns the viscosity outside less the one inside.
+    pub(crate) fn contrast(&self) -> f64 {
+        self.viscosities[1] - self.viscosities[0]
+    }
+
     /// Returns the coefficients of the positions (length): x, y, z, each by [`sphere_harmonics::index`].
     #[must_use]
     pub fn positions(&self) -> [&[f64]; 3] {
@@ -291,6 +301,9 @@ impl SpaceDroplet {
         self.flow.known = false;
         // The same guess as in a droplet that is new.
         self.flow.velocities.fill(0.0);
+        if let Some(around) = &mut self.around {
+            around.reflections.forget();
+        }
         Ok(())
     }
 
@@ -300,7 +313,8 @@ impl SpaceDroplet {
         self.degree
     }
 
-    /// Returns the products with the matrix of the double layer that the last flow took; 0 for equal viscosities.
+    /// Returns the iterations that the last flow took, with one double layer each; 0 for equal viscosities. In
+    /// surroundings, the double layer is the one that they reflect.
     #[must_use]
     pub fn iterations(&self) -> usize {
         self.flow.iterations

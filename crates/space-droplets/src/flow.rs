@@ -8,7 +8,9 @@ use stokes_boundary_integrals::internal::gmres::Outcome;
 
 use crate::droplet::{EdgeFollowing, fields, slices};
 use crate::layers::{Layers, Vectors};
+use crate::reflections::Reflecting;
 use crate::surface::{Surface, at, dot, put, vectors};
+use crate::surroundings::Around;
 use crate::{SpaceDroplet, SpaceError};
 
 /// Residual of the equation for two viscosities, over its right-hand side.
@@ -186,35 +188,41 @@ impl SpaceDroplet {
         product(nodes, layers, [&mut flow.at_nodes, &mut flow.results], self.viscosities, x, out);
     }
 
+    /// Subtracts the coefficients of values at the nodes from a list.
+    pub(crate) fn subtract(&mut self, values: &Vectors, out: &mut [f64]) {
+        let Self { nodes, flow, degree, .. } = self;
+        for (values, out) in values.iter().zip(out.chunks_exact_mut(count(*degree))) {
+            // The lengths fit: transforms cannot fail.
+            let _ = nodes.forward(values, &mut flow.scalar);
+            out.iter_mut().zip(&flow.scalar).for_each(|(out, value)| *out -= value);
+        }
+    }
+
     /// Solves for the velocities of a droplet that is alone.
     fn solve(&mut self) -> Result<(), SpaceError> {
         let [inside, outside] = self.viscosities;
-        let Self { nodes, layers, flow, gmres, viscosities, around, surface, .. } = self;
-        if inside == outside || std::mem::take(&mut flow.solved) {
+        if inside == outside || std::mem::take(&mut self.flow.solved) {
             return Ok(());
         }
-        let (at_nodes, results) = (&mut flow.at_nodes, &mut flow.results);
-        let (field, mut failed) = (&mut flow.scalar, Ok(()));
-        let matrix = |x: &[f64], out: &mut [f64], _accuracy: f64| {
-            product(nodes, layers, [&mut *at_nodes, &mut *results], *viscosities, x, out);
-            if let Some(around) = around {
-                let n = nodes.coefficients();
-                // The lengths fit: transforms cannot fail.
-                for (field, values) in fields(x, n).iter().zip(&mut around.source.velocities) {
-                    let _ = surface.grid.backward(field, values);
-                }
-                if let Err(error) = around.double() {
-                    failed = Err(error);
-                }
-                for (values, out) in around.source.doubles[0].iter().zip(out.chunks_exact_mut(n)) {
-                    let _ = nodes.forward(values, field);
-                    out.iter_mut().zip(&*field).for_each(|(out, value)| *out -= (outside - inside) * value);
-                }
+        let Self { nodes, layers, flow, gmres, viscosities, around, surface, .. } = self;
+        let Flow { at_nodes, results, scalar, right, velocities, .. } = flow;
+        let outcome = if let Some(around) = around {
+            let mut reflections = std::mem::take(&mut around.reflections);
+            let (viscosities, grid) = (*viscosities, &mut surface.grid);
+            let mut alone = Alone { nodes, layers, lists: [at_nodes, results], viscosities, grid, scalar, around };
+            let outcome = reflections.solve(&mut alone, right, velocities);
+            if outcome.is_ok() {
+                reflections.guess.keep(velocities);
             }
+            around.reflections = reflections;
+            outcome?
+        } else {
+            let matrix = |x: &[f64], out: &mut [f64], _accuracy: f64| {
+                product(nodes, layers, [&mut *at_nodes, &mut *results], *viscosities, x, out);
+            };
+            gmres.solve(matrix, right, velocities, TOLERANCE, MOST_ITERATIONS)
         };
-        let outcome = gmres.solve(matrix, &flow.right, &mut flow.velocities, TOLERANCE, MOST_ITERATIONS);
-        flow.iterations = outcome.iterations;
-        failed?;
+        self.flow.iterations = outcome.iterations;
         converged(outcome, self.viscosities)
     }
 
@@ -323,6 +331,35 @@ impl SpaceDroplet {
             mesh.iter_mut().zip(products).for_each(|(mesh, product)| *mesh = product);
         }
         self.update_transport()
+    }
+}
+
+/// The equation of a droplet that is alone in surroundings.
+struct Alone<'a> {
+    nodes: &'a mut Grid,
+    layers: &'a mut Layers,
+    lists: [&'a mut Vectors; 2],
+    viscosities: [f64; 2],
+    grid: &'a mut Grid,
+    scalar: &'a mut Vec<f64>,
+    around: &'a mut Around,
+}
+
+impl Reflecting for Alone<'_> {
+    fn free(&mut self, x: &[f64], out: &mut [f64]) {
+        let [at_nodes, results] = &mut self.lists;
+        product(self.nodes, self.layers, [at_nodes, results], self.viscosities, x, out);
+    }
+
+    fn reflected(&mut self, x: &[f64], out: &mut [f64], accuracy: f64) -> Result<(), SpaceError> {
+        let Self { nodes, viscosities, grid, scalar, around, .. } = self;
+        around.source.load(grid, *viscosities, x);
+        around.double(accuracy)?;
+        for (values, out) in around.source.doubles[0].iter().zip(out.chunks_exact_mut(nodes.coefficients())) {
+            nodes.forward(values, scalar)?;
+            out.iter_mut().zip(&**scalar).for_each(|(out, value)| *out = -value);
+        }
+        Ok(())
     }
 }
 

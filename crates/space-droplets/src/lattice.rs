@@ -20,7 +20,7 @@ use stokes_boundary_integrals::internal::{MOST_SHARES, each_share};
 use crate::SpaceError;
 use crate::surroundings::{Components, Sources, Surroundings, Targets, bounds, digits, edge};
 use near::Near;
-use split::Split;
+use split::{LEVELS, Split};
 use waves::{Block, Columns, Share};
 
 /// The cut-off over the shortest side of the box: sums over waves and over neighbours take about equal time.
@@ -52,10 +52,24 @@ const LEAST_DIGITS: f64 = 9.0;
 pub struct PeriodicBox {
     size: [f64; 3],
     cut_off: f64,
-    split: Arc<Split>,
-    columns: Arc<Columns>,
+    /// Splits with all digits and with fewer; a split that is not needed is not made.
+    levels: [Option<Level>; LEVELS.len()],
     shares: Vec<Share>,
     blocks: Vec<Block>,
+}
+
+/// A split and its wave vectors.
+#[derive(Debug, Clone)]
+struct Level {
+    split: Arc<Split>,
+    columns: Arc<Columns>,
+}
+
+impl Level {
+    fn new(size: [f64; 3], cut_off: f64, c: f64) -> Self {
+        let split = Split::new(c);
+        Self { columns: Arc::new(Columns::new(size, cut_off, &split)), split: Arc::new(split) }
+    }
 }
 
 impl PeriodicBox {
@@ -81,10 +95,8 @@ impl PeriodicBox {
             ));
         }
         let cut_off = CUT_OFF * least;
-        let split = Split::new();
-        let columns = Arc::new(Columns::new(size, cut_off, &split));
         let shares = vec![Share::default(); MOST_SHARES];
-        Ok(Self { size, cut_off, split: Arc::new(split), columns, shares, blocks: Vec::new() })
+        Ok(Self { size, cut_off, levels: [const { None }; LEVELS.len()], shares, blocks: Vec::new() })
     }
 
     /// Returns the sides (length).
@@ -92,11 +104,12 @@ impl PeriodicBox {
     pub fn size(&self) -> [f64; 3] {
         self.size
     }
-}
 
-impl Surroundings for PeriodicBox {
-    fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
-        let Self { size, cut_off, split, columns, shares, blocks } = self;
+    /// Adds the flow of the images by one of the splits.
+    fn add(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>], level: usize) {
+        let Self { size, cut_off, levels, shares, blocks } = self;
+        let Level { split, columns } =
+            levels[level].get_or_insert_with(|| Level::new(*size, *cut_off, LEVELS[level].0));
         let len = shares.len();
         for (k, share) in shares.iter_mut().enumerate() {
             share.columns.clear();
@@ -122,6 +135,23 @@ impl Surroundings for PeriodicBox {
                 out[block.first..].iter_mut().zip(sums).for_each(|(out, sum)| *out += sum);
             }
         }
+    }
+}
+
+impl Surroundings for PeriodicBox {
+    fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
+        self.add(sources, targets, 0);
+        Ok(())
+    }
+
+    fn add_rough_flow(
+        &mut self,
+        sources: &[Sources<'_>],
+        targets: &mut [Targets<'_>],
+        accuracy: f64,
+    ) -> Result<(), SpaceError> {
+        let level = LEVELS.iter().rposition(|(_, error)| *error <= accuracy).unwrap_or(0);
+        self.add(sources, targets, level);
         Ok(())
     }
 

@@ -74,6 +74,8 @@ pub(crate) trait Runs: Dynamics {
     fn time_mut(&mut self) -> &mut f64;
     /// Computes the flow, unless it is known.
     fn update(&mut self) -> Result<(), SpaceError>;
+    /// Returns the error of the last evaluation for an integrator, if there was one.
+    fn failure(&mut self) -> &mut Option<SpaceError>;
     /// Writes all rates of the present state, whose flow is known.
     fn write_rates(&self, rates: &mut Vec<f64>);
     /// Returns an estimate of the fastest rate of the explicit part (1/time).
@@ -134,7 +136,12 @@ pub(crate) fn advance<R: Runs>(
         let dt = if last { left } else { full.min(0.5 * left) };
         run.write_state(&mut start);
         run.write_rates(&mut before);
-        let outcome = integrator.step(run, dt).map_err(SpaceError::from).and_then(|()| run.finish_step());
+        *run.failure() = None;
+        let outcome = match integrator.step(run, dt) {
+            Ok(()) => run.finish_step(),
+            // The integrator knows the error of a stage in words only.
+            Err(error) => Err(run.failure().take().unwrap_or_else(|| error.into())),
+        };
         let (error, drift) = match outcome {
             Ok(drift) => (constant.map_or(0.0, |c| c * run.defect(&start, &before, dt) / tolerance), drift),
             Err(error) if constant.is_none() => {
@@ -202,6 +209,14 @@ impl SpaceDroplet {
         wave * (tension + gathering) + spreading + strain + self.edge.map_or(0.0, |edge| 1.0 / edge.time)
     }
 
+    /// Returns the state without dimension: lengths over the radius, particles over their mean.
+    pub(crate) fn scaled_state(&self) -> impl Iterator<Item = f64> {
+        let particles = 3 * count(self.degree)..4 * count(self.degree);
+        let mean = self.state[particles.start].abs();
+        let scales = [1.0 / self.radius, if mean > 0.0 { 1.0 / mean } else { 1.0 }];
+        self.state.iter().enumerate().map(move |(k, value)| value * scales[usize::from(particles.contains(&k))])
+    }
+
     /// Writes the rates without the implicit diffusion.
     pub(crate) fn write_explicit(&self, rate: &mut [f64]) {
         rate.copy_from_slice(&self.flow.rates);
@@ -236,6 +251,10 @@ impl Runs for SpaceDroplet {
 
     fn update(&mut self) -> Result<(), SpaceError> {
         self.evaluate()
+    }
+
+    fn failure(&mut self) -> &mut Option<SpaceError> {
+        &mut self.failure
     }
 
     fn write_rates(&self, rates: &mut Vec<f64>) {
@@ -279,7 +298,10 @@ impl Dynamics for SpaceDroplet {
     }
 
     fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError> {
-        self.evaluate()?;
+        if let Err(error) = self.evaluate() {
+            self.failure = Some(error.clone());
+            return Err(error.into());
+        }
         self.write_explicit(rate);
         Ok(())
     }

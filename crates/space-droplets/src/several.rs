@@ -18,6 +18,7 @@ use stokes_boundary_integrals::internal::gmres::Gmres;
 
 use crate::close::{Close, Work};
 use crate::layers::Vectors;
+use crate::reflections::Reflections;
 use crate::run::{RunReport, Runs, advance};
 use crate::surface::{at, dot, vectors};
 use crate::surroundings::{Lent, Source, Surroundings, Targets, add_imposed, emptied, lists, lists_mut};
@@ -57,9 +58,10 @@ pub struct SpaceDroplets {
     close: Vec<Close>,
     /// Flow that each droplet feels of the others.
     nears: Vec<Near>,
-    /// For each droplet, its part of the velocities.
+    /// For each droplet, its range of the velocities.
     parts: Vec<Range<usize>>,
     gmres: Gmres,
+    pub(crate) reflections: Reflections,
     /// Velocities of all droplets.
     solution: Vec<f64>,
     right: Vec<f64>,
@@ -67,6 +69,8 @@ pub struct SpaceDroplets {
     pub(crate) known: bool,
     /// The solution was taken from a saved state of the present one.
     solved: bool,
+    /// The error of the last evaluation for an integrator.
+    failure: Option<SpaceError>,
 }
 
 /// The double layer of a droplet at a node of another one that is close to it.
@@ -90,7 +94,6 @@ struct Near {
     used: usize,
     /// Double layers of the others at the nodes.
     doubles: Vectors,
-    part: Vectors,
     shifts: Vec<[f64; 3]>,
     /// Nodes close to one droplet, their places in its frame, the parameter nearest to them, and the flow before.
     close: Vec<(usize, [f64; 3], Point, [f64; 3])>,
@@ -109,7 +112,6 @@ impl Near {
             rows: Vec::new(),
             used: 0,
             doubles: nodes(),
-            part: nodes(),
             shifts: Vec::new(),
             close: Vec::new(),
             place: vectors(1),
@@ -150,6 +152,12 @@ impl SpaceDroplets {
         let nears =
             droplets.iter().enumerate().map(|(to, droplet)| Near::new(to, droplet)).collect::<Result<_, _>>()?;
         let (gmres, solution, right) = (Gmres::default(), Vec::new(), Vec::new());
+        let mut start = 0;
+        let part = |droplet: &SpaceDroplet| {
+            start += droplet.flow.velocities.len();
+            start - droplet.flow.velocities.len()..start
+        };
+        let parts = droplets.iter().map(part).collect();
         let mut all = Self {
             droplets,
             repulsion: None,
@@ -158,13 +166,15 @@ impl SpaceDroplets {
             lent: Lent::default(),
             close,
             nears,
-            parts: Vec::new(),
+            parts,
             gmres,
+            reflections: Reflections::default(),
             solution,
             right,
             time,
             known: false,
             solved: false,
+            failure: None,
         };
         all.evaluate()?;
         Ok(all)
@@ -199,17 +209,25 @@ impl SpaceDroplets {
 
     /// Adds the flow that the surroundings add, at the nodes of all droplets.
     fn surround(&mut self) -> Result<(), SpaceError> {
-        let Self { droplets, surroundings, sources, lent, time, .. } = self;
+        for (k, source) in self.sources.iter().enumerate() {
+            let Some(surroundings) = self.surroundings() else { return Ok(()) };
+            surroundings.check(self.time, k, lists(&source.places))?;
+        }
+        let moving = self.guess();
+        let Self { droplets, surroundings, sources, lent, .. } = self;
         let Some(surroundings) = surroundings else { return Ok(()) };
         let surroundings = surroundings.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for (k, (source, droplet)) in sources.iter().zip(&mut *droplets).enumerate() {
-            surroundings.check(*time, k, lists(&source.places))?;
+        for (source, droplet) in sources.iter().zip(&mut *droplets) {
             let external = &mut droplet.flow.external;
             add_imposed(&**surroundings, droplet.viscosities[1], &source.lab_nodes, external);
         }
         let (mut all, mut targets) =
             (emptied(std::mem::take(&mut lent.sources)), emptied(std::mem::take(&mut lent.targets)));
         all.extend(sources.iter().map(Source::forces));
+        if moving {
+            let contrasting = sources.iter().zip(&*droplets).filter(|(_, droplet)| droplet.contrast() != 0.0);
+            all.extend(contrasting.map(|(source, _)| source.stresslets()));
+        }
         let target = |(source, droplet)| {
             let (source, droplet): (&Source, &mut SpaceDroplet) = (source, droplet);
             Targets { places: lists(&source.lab_nodes), flow: lists_mut(&mut droplet.flow.external) }
@@ -217,7 +235,25 @@ impl SpaceDroplets {
         targets.extend(sources.iter().zip(&mut *droplets).map(target));
         let outcome = surroundings.add_flow(&all, &mut targets);
         (lent.sources, lent.targets) = (emptied(all), emptied(targets));
+        if moving {
+            self.add_close_images(None);
+        }
         outcome
+    }
+
+    /// Guesses the velocities of all droplets and takes them over for the surroundings. Returns false if the flow does
+    /// not need them, or if they are zero.
+    fn guess(&mut self) -> bool {
+        if self.solved || self.droplets.iter().all(|droplet| droplet.contrast() == 0.0) {
+            return false;
+        }
+        let mut solution = std::mem::take(&mut self.solution);
+        solution.resize(self.parts.last().map_or(0, |part| part.end), 0.0);
+        let state = self.droplets.iter().flat_map(SpaceDroplet::scaled_state);
+        self.reflections.guess.write(state, &mut solution);
+        self.load(&solution);
+        self.solution = solution;
+        self.solution.iter().any(|value| *value != 0.0)
     }
 
     /// Returns lines that show the surroundings in pictures ([`Surroundings::outline`]); none in unbounded fluid.
@@ -331,6 +367,7 @@ impl SpaceDroplets {
     /// rest.
     pub(crate) fn start_from(&mut self, velocities: Option<&[f64]>) {
         self.solution.clear();
+        self.reflections.forget();
         self.solved = velocities.is_some();
         let mut rest = velocities.unwrap_or_default();
         for droplet in &mut self.droplets {
@@ -343,7 +380,7 @@ impl SpaceDroplets {
         }
     }
 
-    /// Calls `work` with each droplet and its part of a list.
+    /// Calls `work` with each droplet and its range of a list.
     pub(crate) fn parts(droplets: &[SpaceDroplet], mut work: impl FnMut(&SpaceDroplet, Range<usize>)) {
         let mut start = 0;
         for droplet in droplets {
@@ -361,6 +398,10 @@ impl Runs for SpaceDroplets {
 
     fn update(&mut self) -> Result<(), SpaceError> {
         self.evaluate()
+    }
+
+    fn failure(&mut self) -> &mut Option<SpaceError> {
+        &mut self.failure
     }
 
     fn write_rates(&self, rates: &mut Vec<f64>) {
@@ -415,7 +456,10 @@ impl Dynamics for SpaceDroplets {
     }
 
     fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError> {
-        self.evaluate()?;
+        if let Err(error) = self.evaluate() {
+            self.failure = Some(error.clone());
+            return Err(error.into());
+        }
         Self::parts(&self.droplets, |droplet, range| droplet.write_explicit(&mut rate[range]));
         Ok(())
     }

@@ -23,12 +23,14 @@ use stokes_boundary_integrals::internal::{MOST_SHARES, each_share};
 use crate::SpaceError;
 use crate::surroundings::{Components, Sources, Surroundings, Targets, digits, edge};
 use modes::{Block, Share};
-use rule::{Extent, Rule};
+use rule::{DIGITS, Extent, Rule};
 
 /// Exponent of the error of the walls' flow, above which a droplet is too close to a wall.
 const LEAST_DIGITS: f64 = 9.0;
 /// Part of a picture's reach over which walls are shown, so that their corners are on it.
 const SHOWN: f64 = 0.6;
+/// Added to the exponent of a rough flow, because walls amplify what is left out (measured).
+const MARGIN: f64 = 5.0;
 /// Part of half of the slit that round-off may put a target beyond a wall.
 const ROUND_OFF: f64 = 1e-9;
 
@@ -102,8 +104,9 @@ impl Slit {
     }
 }
 
-impl Surroundings for Slit {
-    fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
+impl Slit {
+    /// Adds the flow of the walls without parts below exp(-digits) of it.
+    fn add(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>], digits: f64) -> Result<(), SpaceError> {
         let half = self.half();
         let least = |least: f64, places: Components<'_>| least.min(self.nearest(places)[0]);
         let gaps = [
@@ -119,7 +122,7 @@ impl Surroundings for Slit {
             return Err(SpaceError::refused(what, value, "Use points between the walls"));
         }
         let extent = Extent::new(self.lower, half, gaps, sources, targets);
-        if !self.rule.update(&extent) {
+        if !self.rule.update(&extent, digits) {
             let what = "the flow of droplets or at points that are so far apart along the walls would take too long";
             let value = format!("{:.0} half widths of the slit", extent.reach);
             return Err(SpaceError::refused(what, value, "Bring them closer together, or farther from the walls"));
@@ -142,6 +145,21 @@ impl Surroundings for Slit {
             }
         }
         Ok(())
+    }
+}
+
+impl Surroundings for Slit {
+    fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
+        self.add(sources, targets, DIGITS)
+    }
+
+    fn add_rough_flow(
+        &mut self,
+        sources: &[Sources<'_>],
+        targets: &mut [Targets<'_>],
+        accuracy: f64,
+    ) -> Result<(), SpaceError> {
+        self.add(sources, targets, (MARGIN - accuracy.max(f64::MIN_POSITIVE).ln()).min(DIGITS))
     }
 
     fn check(&self, time: f64, droplet: usize, places: Components<'_>) -> Result<(), SpaceError> {

@@ -2,9 +2,11 @@
 
 use std::fmt::Debug;
 
-use sphere_harmonics::count;
+use sphere_harmonics::{Grid, count};
 
+use crate::droplet::fields;
 use crate::layers::Vectors;
+use crate::reflections::Reflections;
 use crate::surface::{Surface, vectors};
 use crate::{SpaceDroplet, SpaceError};
 
@@ -100,6 +102,22 @@ pub trait Surroundings: Debug + Send + Sync {
     /// Returns an error if sources or targets are too close to a wall to be resolved.
     fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError>;
 
+    /// Adds the same flow at points of the droplets that make it, with an error of up to about `accuracy` times the
+    /// largest velocity that is added. The later iterations for two viscosities need few digits, which take less work.
+    /// By default, the flow has all digits.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Surroundings::add_flow`].
+    fn add_rough_flow(
+        &mut self,
+        sources: &[Sources<'_>],
+        targets: &mut [Targets<'_>],
+        accuracy: f64,
+    ) -> Result<(), SpaceError> {
+        let _ = accuracy;
+        self.add_flow(sources, targets)
+    }
+
     /// Refuses a droplet with points that are not in the fluid; `places` are in the laboratory (length).
     ///
     /// # Errors
@@ -151,7 +169,7 @@ pub trait Surroundings: Debug + Send + Sync {
 pub(crate) struct Source {
     pub(crate) places: Vectors,
     pub(crate) forces: Vectors,
-    /// Normals times area and weight, and velocities.
+    /// Normals times area and weight, and velocities times the difference of viscosities.
     pub(crate) normals: Vectors,
     pub(crate) velocities: Vectors,
     /// Nodes in the frame of the droplet and in the laboratory, and what double layers of others give there.
@@ -208,6 +226,15 @@ impl Source {
         Ok(())
     }
 
+    /// Takes over the coefficients of velocities on the fine grid, times the viscosity outside less the one inside.
+    pub(crate) fn load(&mut self, grid: &mut Grid, [inside, outside]: [f64; 2], velocities: &[f64]) {
+        for (field, values) in fields(velocities, grid.coefficients()).iter().zip(&mut self.velocities) {
+            // The lengths fit: transforms cannot fail.
+            let _ = grid.backward(field, values);
+            values.iter_mut().for_each(|value| *value *= outside - inside);
+        }
+    }
+
     /// Returns the forces.
     pub(crate) fn forces(&self) -> Sources<'_> {
         Sources::Forces { places: lists(&self.places), forces: lists(&self.forces) }
@@ -258,29 +285,40 @@ pub(crate) fn lists_mut(vectors: &mut Vectors) -> [&mut [f64]; 3] {
 pub(crate) struct Around {
     pub(crate) surroundings: Box<dyn Surroundings>,
     pub(crate) source: Source,
+    pub(crate) reflections: Reflections,
 }
 
 impl Around {
-    /// Writes the flow that the surroundings add at the nodes of a droplet that is prepared, to `flow.external`.
+    /// Writes the flow that the surroundings add at the nodes of a droplet that is prepared, to `flow.external`: of its
+    /// forces, and of a guess for its velocities if the viscosities differ.
     pub(crate) fn apply(&mut self, droplet: &mut SpaceDroplet) -> Result<(), SpaceError> {
         self.source.update(droplet)?;
-        let Self { surroundings, source } = self;
+        let Self { surroundings, source, reflections } = self;
         surroundings.check(droplet.time, 0, lists(&source.places))?;
+        let guessed = droplet.contrast() != 0.0 && !droplet.flow.solved;
+        if guessed {
+            let mut velocities = std::mem::take(&mut droplet.flow.velocities);
+            reflections.guess.write(droplet.scaled_state(), &mut velocities);
+            droplet.flow.velocities = velocities;
+            source.load(&mut droplet.surface.grid, droplet.viscosities, &droplet.flow.velocities);
+        }
         let external = &mut droplet.flow.external;
         external.iter_mut().for_each(|list| list.fill(0.0));
         add_imposed(&**surroundings, droplet.viscosities[1], &source.lab_nodes, external);
         let mut targets = [Targets { places: lists(&source.lab_nodes), flow: lists_mut(external) }];
-        surroundings.add_flow(&[source.forces()], &mut targets)
+        let sources = [source.forces(), source.stresslets()];
+        let moving = guessed && droplet.flow.velocities.iter().any(|value| *value != 0.0);
+        surroundings.add_flow(&sources[..if moving { 2 } else { 1 }], &mut targets)
     }
 
     /// Writes the double layer of the surroundings at the nodes for the velocities in `source.velocities`, to the first
-    /// list of `source.doubles`.
-    pub(crate) fn double(&mut self) -> Result<(), SpaceError> {
-        let Self { surroundings, source } = self;
+    /// list of `source.doubles`, with an error of about `accuracy` times its size.
+    pub(crate) fn double(&mut self, accuracy: f64) -> Result<(), SpaceError> {
+        let Self { surroundings, source, .. } = self;
         let mut doubles = std::mem::take(&mut source.doubles[0]);
         doubles.iter_mut().for_each(|list| list.fill(0.0));
         let mut targets = [Targets { places: lists(&source.lab_nodes), flow: lists_mut(&mut doubles) }];
-        let outcome = surroundings.add_flow(&[source.stresslets()], &mut targets);
+        let outcome = surroundings.add_rough_flow(&[source.stresslets()], &mut targets, accuracy);
         source.doubles[0] = doubles;
         outcome
     }

@@ -47,6 +47,7 @@ pub struct Tube {
     /// Two directions across the axis, and its direction.
     frame: [[f64; 3]; 3],
     mean_flow: f64,
+    tolerance: f64,
     rules: Rules,
     survey: Survey,
     forces: Points,
@@ -68,6 +69,12 @@ struct Share {
 
 /// Part of the wall's flow at droplets that is left out.
 const TOLERANCE: f64 = 3e-10;
+/// Part of the root of the accuracy of a rough flow, which counts for waves that fade on the way back as well (measured).
+const PART: f64 = 0.03;
+/// Distance, over the radius, within which points are as far from the wall as others.
+const SAME_RADIUS: f64 = 0.02;
+/// Largest part that may be left out.
+const LEAST_ACCURATE: f64 = 0.01;
 
 impl Tube {
     /// Creates a tube of this radius (length) around the z axis.
@@ -79,7 +86,8 @@ impl Tube {
             radius: positive("the radius of the tube", radius)?,
             frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             mean_flow: 0.0,
-            rules: Rules::new(TOLERANCE),
+            tolerance: TOLERANCE,
+            rules: Rules::default(),
             survey: Survey::default(),
             forces: Points::default(),
             stresslets: Points::default(),
@@ -121,13 +129,13 @@ impl Tube {
         Ok(self)
     }
 
-    /// Leaves out waves that change the wall's flow at droplets by about less than this part of it; 3e-10 by default.
+    /// Leaves out waves that change the wall's flow at droplets by about less than this fraction; 3e-10 by default.
     /// With 1e-5, a flow needs far fewer waves, and its error is still smaller than the truncation of most swimmers.
     ///
     /// # Errors
     /// Returns an error if the tolerance is not between 1e-13 and 0.01.
     pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SpaceError> {
-        self.rules = Rules::new(within("the tolerance of the tube", tolerance, 1e-13, 0.01)?);
+        self.tolerance = within("the tolerance of the tube", tolerance, 1e-13, LEAST_ACCURATE)?;
         Ok(self)
     }
 
@@ -260,8 +268,9 @@ impl Share {
     }
 }
 
-impl Surroundings for Tube {
-    fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
+impl Tube {
+    /// Adds the flow of the wall without waves that change it by less than the tolerance.
+    fn add(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>], tolerance: f64) -> Result<(), SpaceError> {
         let mut reach = Reach::default();
         for (places, source) in sources
             .iter()
@@ -284,10 +293,10 @@ impl Surroundings for Tube {
         let all = [&*forces, &*stresslets];
         let share = &mut shares[0];
         let energies = |node: &Node, orders: usize, list: &mut Vec<f64>| share.energies(all, node, orders, list);
-        if !survey.update(rules, energies)? {
+        if !survey.update(rules, tolerance, energies)? {
             return Ok(());
         }
-        let (survey, nodes) = (&*survey, rules.nodes(survey, reach.length())?);
+        let (survey, nodes) = (&*survey, rules.nodes(survey, reach.length(), tolerance)?);
         for share in &mut *shares {
             share.flow.clear();
             share.flow.resize(points.count.div_ceil(LANES), [[0.0; LANES]; 3]);
@@ -310,6 +319,34 @@ impl Surroundings for Tube {
             }
         }
         Ok(())
+    }
+}
+
+impl Surroundings for Tube {
+    fn add_flow(&mut self, sources: &[Sources<'_>], targets: &mut [Targets<'_>]) -> Result<(), SpaceError> {
+        self.add(sources, targets, self.tolerance)
+    }
+
+    fn add_rough_flow(
+        &mut self,
+        sources: &[Sources<'_>],
+        targets: &mut [Targets<'_>],
+        accuracy: f64,
+    ) -> Result<(), SpaceError> {
+        let farthest = |most: f64, places: Components<'_>| {
+            let radius = |k: usize| {
+                let [x, y, _] = self.place(at(&places, k));
+                x.hypot(y)
+            };
+            (0..places[0].len()).map(radius).fold(most, f64::max)
+        };
+        let from = sources.iter().map(Sources::places).fold(0.0, farthest);
+        let to = targets.iter().map(|target| target.places).fold(0.0, farthest);
+        // Few different tolerances let rules be used again.
+        let accuracy = 10.0_f64.powf(accuracy.max(f64::MIN_POSITIVE).log10().floor());
+        // A wave that fades from the sources to the wall fades as much on the way back to points as far from it.
+        let tolerance = if to < from + SAME_RADIUS { PART * accuracy.sqrt() } else { accuracy };
+        self.add(sources, targets, tolerance.clamp(self.tolerance, LEAST_ACCURATE))
     }
 
     fn check(&self, time: f64, droplet: usize, places: Components<'_>) -> Result<(), SpaceError> {

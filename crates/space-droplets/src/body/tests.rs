@@ -77,6 +77,6 @@ fn planes_and_states_of_other_bodies_are_refused() {
     body.write_state(&mut state);
     state[7] = f64::NAN;
     assert!(body.read_state(&state).unwrap_err().to_string().contains("coefficient number 7"));
-    assert!(body.load(&view, &SavedState { reals: vec![0.0; 3], counts: vec![0] }).is_err());
+    assert!(body.load(&view, &SavedState { reals: vec![0.0; 3], counts: vec![0, u64::MAX] }).is_err());
     assert!(body.load(&view, &SavedState::default()).is_err());
 }

@@ -16,8 +16,8 @@ use std::f64::consts::PI;
 use motile_base::internal::gauss_legendre;
 use stokes_boundary_integrals::internal::prolate::{Prolate, powers};
 
-/// Largest wave number times the cut-off: what is left out is 1e-13 of the largest velocity (measured).
-const C: f64 = 35.0;
+/// Largest wave numbers times the cut-off, and what is left out over the largest velocity (measured).
+pub(super) const LEVELS: [(f64, f64); 4] = [(35.0, 1e-13), (26.0, 1e-7), (18.0, 1e-4), (11.0, 2e-2)];
 /// Nodes of the quadrature over k, and of the one for Bessel functions.
 const QUADRATURE: usize = 64;
 const TURN: usize = 40;
@@ -27,6 +27,7 @@ const POLYNOMIALS: f64 = 1e-15;
 /// The split in units of the cut-off.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
+    c: f64,
     prolate: Prolate,
     alpha: f64,
     /// b, g and s as powers of 2 r^2 - 1.
@@ -34,13 +35,14 @@ pub(super) struct Split {
 }
 
 impl Split {
-    pub(super) fn new() -> Self {
-        let prolate = Prolate::new(C);
-        let alpha = 0.5 * prolate.bend / (C * C);
-        let mut split = Self { prolate, alpha, smooth: [Vec::new(), Vec::new(), Vec::new()] };
+    /// Creates the split for a largest wave number times the cut-off.
+    pub(super) fn new(c: f64) -> Self {
+        let prolate = Prolate::new(c);
+        let alpha = 0.5 * prolate.bend / (c * c);
+        let mut split = Self { c, prolate, alpha, smooth: [Vec::new(), Vec::new(), Vec::new()] };
         let nodes = gauss_legendre(QUADRATURE).into_iter().map(|(x, weight)| {
-            let k = 0.5 * C * (1.0 + x);
-            [k, 0.5 * C * weight * split.phi(k) * 4.0 / PI]
+            let k = 0.5 * c * (1.0 + x);
+            [k, 0.5 * c * weight * split.phi(k) * 4.0 / PI]
         });
         let nodes: Vec<[f64; 2]> = nodes.collect();
         let turn = gauss_legendre(TURN);
@@ -63,12 +65,12 @@ impl Split {
 
     /// Returns phi at a wave number times the cut-off; zero beyond the largest.
     pub(super) fn phi(&self, x: f64) -> f64 {
-        if x > C { 0.0 } else { (1.0 + self.alpha * x * x) * self.prolate.at(x / C) }
+        if x > self.c { 0.0 } else { (1.0 + self.alpha * x * x) * self.prolate.at(x / self.c) }
     }
 
     /// Returns the largest wave number times the cut-off.
     pub(super) fn most(&self) -> f64 {
-        C
+        self.c
     }
 }
 

@@ -6,12 +6,14 @@ use sphere_harmonics::count;
 use stokes_boundary_integrals::internal::{each_share, gmres::Outcome};
 
 use super::{Near, Row, SpaceDroplets};
+use crate::SpaceError;
 use crate::close::{add_direct, add_direct_double, nearest, nearest_on_grid};
 use crate::droplet::{fields, slices};
 use crate::flow::{MOST_ITERATIONS, TOLERANCE, converged};
-use crate::surface::{at, dot, put};
+use crate::layers::Vectors;
+use crate::reflections::Reflecting;
+use crate::surface::{at, dot, put, vectors};
 use crate::surroundings::{Source, Sources, Targets, emptied, lists, lists_mut};
-use crate::{SpaceDroplet, SpaceError};
 
 /// Exponent of the error of the plain sum over the fine grid: closer targets are integrated about their nearest point.
 const DIGITS: f64 = 22.0;
@@ -24,146 +26,103 @@ impl SpaceDroplets {
             droplet.update_right()?;
             self.right.extend_from_slice(&droplet.flow.right);
         }
-        self.solution.resize(self.right.len(), 0.0);
         let kept = std::mem::take(&mut self.solved);
         let viscosities = self.droplets[0].viscosities;
-        let (mut gmres, right) = (std::mem::take(&mut self.gmres), std::mem::take(&mut self.right));
+        let right = std::mem::take(&mut self.right);
         let mut solution = std::mem::take(&mut self.solution);
-        let mut failed = Ok(());
-        let matrix = |x: &[f64], out: &mut [f64], _accuracy: f64| {
-            self.product(x, out);
-            if let Err(error) = self.reflect(out) {
-                failed = Err(error);
-            }
-        };
+        solution.resize(right.len(), 0.0);
         let outcome = if kept {
-            Outcome::default()
+            Ok(Outcome::default())
+        } else if self.surroundings.is_some() {
+            let mut reflections = std::mem::take(&mut self.reflections);
+            let outcome = reflections.solve(self, &right, &mut solution);
+            if outcome.is_ok() {
+                reflections.guess.keep(&solution);
+            }
+            self.reflections = reflections;
+            outcome
         } else {
-            gmres.solve(matrix, &right, &mut solution, TOLERANCE, MOST_ITERATIONS)
+            let mut gmres = std::mem::take(&mut self.gmres);
+            let matrix = |x: &[f64], out: &mut [f64], _accuracy: f64| self.free(x, out);
+            let outcome = gmres.solve(matrix, &right, &mut solution, TOLERANCE, MOST_ITERATIONS);
+            self.gmres = gmres;
+            Ok(outcome)
         };
-        (self.gmres, self.right, self.solution) = (gmres, right, solution);
-        failed?;
+        (self.right, self.solution) = (right, solution);
+        let outcome = outcome?;
         converged(outcome, viscosities)?;
-        let mut start = 0;
-        for droplet in &mut self.droplets {
-            let len = droplet.flow.velocities.len();
-            droplet.flow.velocities.copy_from_slice(&self.solution[start..start + len]);
+        for (droplet, part) in self.droplets.iter_mut().zip(&self.parts) {
+            droplet.flow.velocities.copy_from_slice(&self.solution[part.clone()]);
             droplet.flow.iterations = outcome.iterations;
-            start += len;
             droplet.update_all_rates()?;
         }
         Ok(())
     }
 
-    /// Writes the product with the matrix of all droplets: the double layer of each at itself and at the others.
-    fn product(&mut self, x: &[f64], out: &mut [f64]) {
-        let mut start = 0;
-        self.parts.clear();
-        for (droplet, source) in self.droplets.iter_mut().zip(&mut self.sources) {
-            let n = count(droplet.degree);
-            let range = start..start + 3 * n;
-            start = range.end;
-            let [inside, outside] = droplet.viscosities;
-            if inside == outside {
-                out[range.clone()].iter_mut().zip(&x[range.clone()]).for_each(|(out, x)| *out = outside * x);
-            } else {
-                droplet.product(&x[range.clone()], &mut out[range.clone()]);
-                // The lengths fit: transforms cannot fail.
-                for (field, values) in fields(&x[range.clone()], n).iter().zip(&mut source.velocities) {
-                    let _ = droplet.surface.grid.backward(field, values);
-                }
+    /// Takes over the velocities of droplets of another viscosity on their grids.
+    pub(super) fn load(&mut self, x: &[f64]) {
+        for ((droplet, source), part) in self.droplets.iter_mut().zip(&mut self.sources).zip(&self.parts) {
+            if droplet.contrast() != 0.0 {
+                source.load(&mut droplet.surface.grid, droplet.viscosities, &x[part.clone()]);
             }
-            self.parts.push(range);
         }
+    }
+
+    /// Adds the double layers of images at nodes close to them, less their sums over the grid, to `source.doubles` for
+    /// velocities x, or to `flow.external` for the guess of the solution.
+    pub(super) fn add_close_images(&mut self, x: Option<&[f64]>) {
         let mut nears = std::mem::take(&mut self.nears);
-        let all = &*self;
-        each_share(&mut nears, |near| all.doubles_of_others(near, x));
-        for (to, (near, droplet)) in nears.iter().zip(&mut self.droplets).enumerate() {
-            let part = self.parts[to].clone();
-            let n = count(droplet.degree);
-            for (values, out) in near.doubles.iter().zip(out[part].chunks_exact_mut(n)) {
-                let mut field = std::mem::take(&mut droplet.flow.scalar_concentration);
-                let _ = droplet.nodes.forward(values, &mut field);
-                out.iter_mut().zip(&field).for_each(|(out, value)| *out -= value);
-                droplet.flow.scalar_concentration = field;
+        for near in &mut nears {
+            let to = near.to;
+            let mut flow = match x {
+                Some(_) => std::mem::replace(&mut self.sources[to].doubles[0], vectors(0)),
+                None => std::mem::replace(&mut self.droplets[to].flow.external, vectors(0)),
+            };
+            self.add_rows(near, x.unwrap_or(&self.solution), true, &mut flow);
+            match x {
+                Some(_) => self.sources[to].doubles[0] = flow,
+                None => self.droplets[to].flow.external = flow,
             }
         }
         self.nears = nears;
     }
 
-    /// Adds the double layers that the surroundings reflect, of the velocities that [`SpaceDroplets::product`] has
-    /// left.
-    fn reflect(&mut self, out: &mut [f64]) -> Result<(), SpaceError> {
-        let Self { droplets, sources, surroundings, lent, parts, .. } = self;
-        let Some(surroundings) = surroundings else { return Ok(()) };
-        let surroundings = surroundings.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for (droplet, source) in droplets.iter().zip(&mut *sources) {
-            let [inside, outside] = droplet.viscosities;
-            source.velocities.iter_mut().flatten().for_each(|value| *value *= outside - inside);
-            source.doubles[0].iter_mut().for_each(|list| list.fill(0.0));
-        }
-        let (mut all, mut targets) =
-            (emptied(std::mem::take(&mut lent.sources)), emptied(std::mem::take(&mut lent.targets)));
-        for (source, droplet) in sources.iter_mut().zip(&*droplets) {
-            let Source { places, normals, velocities, lab_nodes, doubles, .. } = source;
-            if droplet.viscosities[0] != droplet.viscosities[1] {
-                let [places, normals, velocities] = [&*places, &*normals, &*velocities].map(lists);
-                all.push(Sources::Stresslets { places, normals, velocities });
+    /// Adds the double layers of droplets, or of images, at nodes close to them, less the sums over their grids.
+    fn add_rows(&self, near: &mut Near, x: &[f64], images: bool, flow: &mut Vectors) {
+        let here = &self.sources[near.to];
+        let Near { rows, used, place, velocity, .. } = near;
+        for row in rows[..*used].iter().filter(|row| row.image.is_some() == images) {
+            let (source, droplet) = (&self.sources[row.from], &self.droplets[row.from]);
+            let [x, y, z] = fields(&x[self.parts[row.from].clone()], count(droplet.degree));
+            let mut sums = [0.0; 3];
+            for (k, [xx, xy, xz, yy, yz, zz]) in row.row.iter().enumerate() {
+                sums[0] += xx * x[k] + xy * y[k] + xz * z[k];
+                sums[1] += xy * x[k] + yy * y[k] + yz * z[k];
+                sums[2] += xz * x[k] + yz * y[k] + zz * z[k];
             }
-            targets.push(Targets { places: lists(lab_nodes), flow: lists_mut(&mut doubles[0]) });
+            put(place, 0, at(&here.nodes, row.node));
+            velocity.iter_mut().for_each(|list| list.fill(0.0));
+            let shift = row.image.unwrap_or_default();
+            let origin = std::array::from_fn(|i| here.position[i] - shift[i]);
+            add_direct_double(&source.places, [&source.normals, &source.velocities], place, origin, velocity);
+            let (before, plain) = (at(flow, row.node), at(velocity, 0));
+            put(flow, row.node, std::array::from_fn(|i| before[i] + droplet.contrast() * sums[i] - plain[i]));
         }
-        let outcome = surroundings.add_flow(&all, &mut targets);
-        (lent.sources, lent.targets) = (emptied(all), emptied(targets));
-        for ((droplet, source), part) in droplets.iter_mut().zip(sources).zip(&*parts) {
-            let SpaceDroplet { nodes, flow, degree, .. } = droplet;
-            for (values, out) in source.doubles[0].iter().zip(out[part.clone()].chunks_exact_mut(count(*degree))) {
-                // The lengths fit: transforms cannot fail.
-                let _ = nodes.forward(values, &mut flow.scalar_concentration);
-                out.iter_mut().zip(&flow.scalar_concentration).for_each(|(out, value)| *out -= value);
-            }
-        }
-        outcome
     }
 
     /// Writes the double layers of all others, times the difference of their viscosities, at the nodes of a droplet.
     fn doubles_of_others(&self, near: &mut Near, x: &[f64]) {
         let here = &self.sources[near.to];
-        let Near { to, doubles, part, rows, used, place, velocity, .. } = near;
+        let mut doubles = std::mem::replace(&mut near.doubles, vectors(0));
         doubles.iter_mut().for_each(|list| list.fill(0.0));
-        for (from, other) in self.droplets.iter().enumerate() {
-            let [inside, outside] = other.viscosities;
-            if inside == outside {
-                continue;
-            }
-            let source = &self.sources[from];
-            let stresslets = [&source.normals, &source.velocities];
-            part.iter_mut().for_each(|list| list.fill(0.0));
-            if from != *to {
-                add_direct_double(&source.places, stresslets, &here.nodes, here.position, part);
-            }
-            let [x, y, z] = fields(&x[self.parts[from].clone()], count(other.degree));
-            for row in rows[..*used].iter().filter(|row| row.from == from) {
-                let mut sums = [0.0; 3];
-                for (k, [xx, xy, xz, yy, yz, zz]) in row.row.iter().enumerate() {
-                    sums[0] += xx * x[k] + xy * y[k] + xz * z[k];
-                    sums[1] += xy * x[k] + yy * y[k] + yz * z[k];
-                    sums[2] += xz * x[k] + yz * y[k] + zz * z[k];
-                }
-                if let Some(shift) = row.image {
-                    // The surroundings have summed the image over the grid: the row takes its place.
-                    put(place, 0, at(&here.nodes, row.node));
-                    velocity.iter_mut().for_each(|list| list.fill(0.0));
-                    let origin = std::array::from_fn(|i| here.position[i] - shift[i]);
-                    add_direct_double(&source.places, stresslets, place, origin, velocity);
-                    let (before, plain) = (at(part, row.node), at(velocity, 0));
-                    sums = std::array::from_fn(|i| before[i] + sums[i] - plain[i]);
-                }
-                put(part, row.node, sums);
-            }
-            for (sum, part) in doubles.iter_mut().zip(&*part) {
-                sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += (outside - inside) * part);
+        for (from, (other, source)) in self.droplets.iter().zip(&self.sources).enumerate() {
+            if from != near.to && other.contrast() != 0.0 {
+                let stresslets = [&source.normals, &source.velocities];
+                add_direct_double(&source.places, stresslets, &here.nodes, here.position, &mut doubles);
             }
         }
+        self.add_rows(near, x, false, &mut doubles);
+        near.doubles = doubles;
     }
 
     /// The flow of all other droplets at the nodes of each.
@@ -258,5 +217,54 @@ impl SpaceDroplets {
             }
         }
         Ok(())
+    }
+}
+
+impl Reflecting for SpaceDroplets {
+    /// Writes the product with the matrix of all droplets: the double layer of each at itself and at the others.
+    fn free(&mut self, x: &[f64], out: &mut [f64]) {
+        self.load(x);
+        for (droplet, part) in self.droplets.iter_mut().zip(&self.parts) {
+            let (x, out) = (&x[part.clone()], &mut out[part.clone()]);
+            if droplet.contrast() == 0.0 {
+                out.iter_mut().zip(x).for_each(|(out, x)| *out = droplet.viscosities[1] * x);
+            } else {
+                droplet.product(x, out);
+            }
+        }
+        let mut nears = std::mem::take(&mut self.nears);
+        let all = &*self;
+        each_share(&mut nears, |near| all.doubles_of_others(near, x));
+        for ((near, droplet), part) in nears.iter().zip(&mut self.droplets).zip(&self.parts) {
+            droplet.subtract(&near.doubles, &mut out[part.clone()]);
+        }
+        self.nears = nears;
+    }
+
+    /// Writes the product with the double layers that the surroundings reflect.
+    fn reflected(&mut self, x: &[f64], out: &mut [f64], accuracy: f64) -> Result<(), SpaceError> {
+        out.fill(0.0);
+        self.load(x);
+        let Self { droplets, sources, surroundings, lent, .. } = self;
+        let Some(surroundings) = surroundings else { return Ok(()) };
+        let surroundings = surroundings.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let (mut all, mut targets) =
+            (emptied(std::mem::take(&mut lent.sources)), emptied(std::mem::take(&mut lent.targets)));
+        for (source, droplet) in sources.iter_mut().zip(&*droplets) {
+            let Source { places, normals, velocities, lab_nodes, doubles, .. } = source;
+            doubles[0].iter_mut().for_each(|list| list.fill(0.0));
+            if droplet.contrast() != 0.0 {
+                let [places, normals, velocities] = [&*places, &*normals, &*velocities].map(lists);
+                all.push(Sources::Stresslets { places, normals, velocities });
+            }
+            targets.push(Targets { places: lists(lab_nodes), flow: lists_mut(&mut doubles[0]) });
+        }
+        let outcome = surroundings.add_rough_flow(&all, &mut targets, accuracy);
+        (lent.sources, lent.targets) = (emptied(all), emptied(targets));
+        self.add_close_images(Some(x));
+        for ((droplet, source), part) in self.droplets.iter_mut().zip(&self.sources).zip(&self.parts) {
+            droplet.subtract(&source.doubles[0], &mut out[part.clone()]);
+        }
+        outcome
     }
 }

@@ -28,8 +28,8 @@ impl SpaceDroplets {
         self.present_gap(first, second)
     }
 
-    /// Returns the smallest gap (length) between a droplet and walls, all other droplets, and the periodic images of all,
-    /// in the state that was evaluated last; `None` if there is nothing else.
+    /// Returns the smallest gap (length) between a droplet and walls, all other droplets, and the periodic images of
+    /// all, in the state that was evaluated last; `None` if there is nothing else.
     ///
     /// # Errors
     /// Returns an error if the droplet does not exist.

@@ -159,6 +159,26 @@ fn droplets_that_overlap_or_are_in_different_fluids_are_refused() {
     assert!(pair.gap(1, 1).is_err());
 }
 
+/// Droplets that meet within a step, at a stage of the integrator, and one that meets a wall there.
+#[test]
+fn overlaps_within_a_step_name_the_droplets_and_keep_the_state() {
+    // A droplet moves against the gradient of its tension, at 1/15.
+    let droplets = vec![marangoni(6, [-1.0, 0.0, 0.0], [0.0; 3]), marangoni(6, [1.0, 0.0, 0.0], [2.05, 0.0, 0.0])];
+    let mut pair = SpaceDroplets::new(droplets).unwrap();
+    let before: Vec<Vec<f64>> = pair.droplets.iter().map(|droplet| droplet.state.clone()).collect();
+    let error = pair.advance(8.0, StepSize::Fixed(4.0), &mut Midpoint::default(), |_| {}).unwrap_err();
+    assert!(matches!(error, SpaceError::Overlap { time: 0.0, first: 0, second: 1 }), "{error:?}");
+    assert!(pair.time() == 0.0 && pair.droplets.iter().zip(&before).all(|(droplet, state)| droplet.state == *state));
+    let speed = pair.observe(0).unwrap().velocity[0];
+    assert!(speed > 0.0 && pair.observe(1).unwrap().velocity[0] < 0.0, "{speed}");
+    let slit = crate::Slit::new(-1.3, 1.3).unwrap();
+    let mut drop = marangoni(6, [0.0, 0.0, -1.0], [0.0; 3]).with_surroundings(slit).unwrap();
+    let before = drop.state.clone();
+    let error = drop.advance(60.0, StepSize::Fixed(30.0), &mut Midpoint::default(), |_| {}).unwrap_err();
+    assert!(matches!(error, SpaceError::Wall { time: 0.0, droplet: 0, .. }), "{error:?}");
+    assert!(drop.state == before && drop.observe().unwrap().velocity[2] > 0.0);
+}
+
 /// Two droplets of different viscosities close to each other, with a repulsion.
 fn close_pair(degree: usize, ratios: [f64; 2], gap: f64) -> SpaceDroplets {
     let drop = |ratio: f64, x: f64| {
@@ -171,13 +191,15 @@ fn close_pair(degree: usize, ratios: [f64; 2], gap: f64) -> SpaceDroplets {
 
 #[test]
 fn evaluations_in_steady_state_do_not_allocate() {
-    for ratios in [[1.0, 1.0], [5.0, 0.2]] {
-        let mut pair = close_pair(6, ratios, 0.1).with_repulsion(Repulsion::new(2.0, 0.4).unwrap());
-        pair.evaluate().unwrap();
-        pair.known = false;
-        let counted = allocation_counter::measure(|| pair.evaluate().unwrap());
-        assert_eq!(counted.count_total, 0, "{ratios:?}");
-    }
+    in_pool(|| {
+        for ratios in [[1.0, 1.0], [5.0, 0.2]] {
+            let mut pair = close_pair(6, ratios, 0.1).with_repulsion(Repulsion::new(2.0, 0.4).unwrap());
+            pair.evaluate().unwrap();
+            pair.known = false;
+            let counted = allocation_counter::measure(|| pair.evaluate().unwrap());
+            assert_eq!(counted.count_total, 0, "{ratios:?}");
+        }
+    });
 }
 
 /// Calls a function on a thread of a pool, whose queue for other threads would allocate now and then.

@@ -6,9 +6,9 @@ use motile_base::internal::gauss_legendre;
 
 use crate::surroundings::{Components, Sources, Targets, bounds};
 
-/// Exponent of what is left out.
-const DIGITS: f64 = 36.0;
-/// Gauss-Legendre points over k in any case (measured).
+/// Exponent of what is left out if all digits count.
+pub(super) const DIGITS: f64 = 36.0;
+/// Gauss-Legendre points over k in any case, if all digits count (measured).
 const POINTS: f64 = 26.0;
 /// More of them for each root of the largest k, which are for points next to walls.
 const POINTS_NEAR_WALLS: f64 = 3.0;
@@ -71,26 +71,33 @@ pub(super) struct Ring {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Rule {
     pub(super) rings: Vec<Ring>,
-    gauss: Vec<(f64, f64)>,
+    /// Gauss-Legendre rules by their number of points, to use them again.
+    gauss: Vec<Vec<(f64, f64)>>,
 }
 
 impl Rule {
-    /// Chooses the wave vectors for sources and targets. Returns false if they would be too many.
-    pub(super) fn update(&mut self, extent: &Extent) -> bool {
+    /// Chooses the wave vectors for sources and targets and an exponent of what is left out. Returns false if they
+    /// would be too many.
+    pub(super) fn update(&mut self, extent: &Extent, digits: f64) -> bool {
         // Targets on a wall, with sources on it as well, would need all wave vectors.
-        let most = DIGITS / extent.gap.max(1e-3);
-        let points = (POINTS + POINTS_NEAR_WALLS * most.sqrt() + POINTS_APART * most * extent.reach) as usize;
+        let most = digits / extent.gap.max(1e-3);
+        let least = POINTS * digits / DIGITS;
+        let points = (least + POINTS_NEAR_WALLS * most.sqrt() + POINTS_APART * most * extent.reach) as usize;
         if points > MOST_POINTS {
             return false;
         }
-        if self.gauss.len() != points {
-            self.gauss = gauss_legendre(points);
+        if self.gauss.len() <= points {
+            self.gauss.resize(points + 1, Vec::new());
+        }
+        let gauss = &mut self.gauss[points];
+        if gauss.is_empty() {
+            *gauss = gauss_legendre(points);
         }
         self.rings.clear();
-        self.rings.extend(self.gauss.iter().map(|(x, weight)| {
+        self.rings.extend(gauss.iter().map(|(x, weight)| {
             let t = 0.5 * (1.0 + x);
             let k = most * t * t;
-            let angles = angles(k * extent.reach, (k * extent.gap - DIGITS).exp());
+            let angles = angles(k * extent.reach, (k * extent.gap - digits).exp());
             let area = k * most * t * weight * PI / angles as f64;
             Ring { k, weight: 2.0 * area / (4.0 * PI * PI * 8.0 * PI), angles }
         }));

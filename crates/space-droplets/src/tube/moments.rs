@@ -70,7 +70,7 @@ impl Sources<'_> {
         sign * if n < 0 { value.conj() } else { value }
     }
 
-    /// Returns the moment of a part of a solution with the functions of order n.
+    /// Returns the moment of one component of a solution with the functions of order n.
     fn part(&self, kind: Kind, n: usize, part: Part, parity: Parity) -> Complex64 {
         let derived = matches!(part, Part::Along);
         if self.stresslets {

@@ -12,7 +12,7 @@ const RATIO: f64 = std::f64::consts::SQRT_2;
 const MOST_ORDERS: usize = 512;
 const LARGEST: f64 = 600.0;
 /// Rules that are kept: forces and the iterations for another viscosity need different ones.
-const MOST_RULES: usize = 16;
+const MOST_RULES: usize = 64;
 /// Longest distance of droplets along the tube, in units of its radius.
 const LONGEST: f64 = 400.0;
 /// Ends of the pieces of the rule, which resolve the logarithms at zero and the poles close to the axis.
@@ -63,20 +63,18 @@ impl Reach {
 }
 
 /// Rules that were made, to use them again.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Rules {
-    /// Part of the velocities that may be left out.
-    pub(super) tolerance: f64,
     ladder: Vec<Node>,
     kept: Vec<Rule>,
     /// The rule that is replaced next, if there are many.
     next: usize,
 }
 
-/// Nodes, with the end and the length of the rule, in steps, and its orders.
+/// Nodes, with the end and the length of the rule, in steps, its orders, and the fewest nodes of a piece.
 #[derive(Debug, Clone, Default)]
 struct Rule {
-    key: (usize, usize, usize),
+    key: (usize, usize, usize, usize),
     nodes: Vec<Node>,
 }
 
@@ -90,15 +88,16 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    /// Tries longer and longer waves, with a function that writes the work of the wall for so many orders of a node.
-    /// Returns false if there is no work at all.
+    /// Tries shorter and shorter waves until a part of the velocities is left, with a function that writes the work of
+    /// the wall for so many orders of a node. Returns false if there is no work at all.
     pub(super) fn update(
         &mut self,
         rules: &mut Rules,
+        tolerance: f64,
         mut energies: impl FnMut(&Node, usize, &mut Vec<f64>),
     ) -> Result<bool, SpaceError> {
         // Work goes with the square of velocities.
-        let negligible = rules.tolerance.powi(2);
+        let negligible = tolerance.powi(2);
         let Self { tried, end, list } = self;
         tried.clear();
         let (mut guess, mut reference) = (12, 0.0_f64);
@@ -152,11 +151,6 @@ impl Survey {
 }
 
 impl Rules {
-    /// Creates rules without nodes yet.
-    pub(super) fn new(tolerance: f64) -> Self {
-        Self { tolerance, ladder: Vec::new(), kept: Vec::new(), next: 0 }
-    }
-
     /// Returns a node of the survey.
     fn step(&mut self, step: usize, k: f64, orders: usize) -> Result<&Node, SpaceError> {
         if step == self.ladder.len() {
@@ -167,15 +161,17 @@ impl Rules {
         Ok(&self.ladder[step])
     }
 
-    /// Returns the rule for a survey and an extent along the axis.
-    pub(super) fn nodes(&mut self, survey: &Survey, length: f64) -> Result<&[Node], SpaceError> {
+    /// Returns the rule for a survey, an extent along the axis, and the part of the velocities that may be left out.
+    pub(super) fn nodes(&mut self, survey: &Survey, length: f64, tolerance: f64) -> Result<&[Node], SpaceError> {
         if length > LONGEST {
             let what = "droplets, or the points where their flow is asked for, are too far apart along the tube";
             let value = format!("{length:.0} of its radii");
             return Err(SpaceError::refused(what, value, format!("Use at most {LONGEST} radii")));
         }
         let orders = survey.tried.iter().map(|tried| tried.1).max().unwrap_or(1);
-        let key = ((survey.end / 2.0).ceil() as usize, (4.0 * length).ceil() as usize, orders.next_multiple_of(8));
+        let fewest = 5 + (-1.6 * tolerance.min(1e-5).log10()).ceil() as usize;
+        let (end, length) = ((survey.end / 2.0).ceil() as usize, (4.0 * length).ceil() as usize);
+        let key = (end, length, orders.next_multiple_of(8), fewest);
         let known = self.kept.iter().position(|rule| rule.key == key);
         let place = known.unwrap_or(self.next);
         if known.is_none() {
@@ -190,7 +186,7 @@ impl Rules {
             let mut start = 0.0;
             for stop in PIECES.into_iter().map(|stop| stop.min(end)).chain([end]) {
                 if stop > start {
-                    self.add_piece([start, stop], length, key.2, &mut nodes)?;
+                    add_piece([start, stop], length, key, &mut nodes)?;
                     start = stop;
                 }
             }
@@ -198,26 +194,24 @@ impl Rules {
         }
         Ok(&self.kept[place].nodes)
     }
+}
 
-    /// Adds the nodes of a piece.
-    fn add_piece(
-        &self,
-        [start, stop]: [f64; 2],
-        length: f64,
-        orders: usize,
-        nodes: &mut Vec<Node>,
-    ) -> Result<(), SpaceError> {
-        let width = stop - start;
-        // Waves turn by width * length; near zero, k = t^4.
-        let power = if start == 0.0 { 4 } else { 1 };
-        let fewest = 5 + (-1.6 * self.tolerance.log10()).ceil() as usize;
-        let count = fewest + (0.25 * width * length * f64::from(power)).ceil() as usize;
-        for (x, weight) in gauss_legendre(count) {
-            let t = 0.5 * (1.0 + x);
-            let k = start + width * t.powi(power);
-            let weight = 0.5 * weight * width * f64::from(power) * t.powi(power - 1);
-            nodes.push(Node::new(k, weight, orders)?);
-        }
-        Ok(())
+/// Adds the nodes of a piece for the orders and the fewest nodes of a key.
+fn add_piece(
+    [start, stop]: [f64; 2],
+    length: f64,
+    (_, _, orders, fewest): (usize, usize, usize, usize),
+    nodes: &mut Vec<Node>,
+) -> Result<(), SpaceError> {
+    let width = stop - start;
+    // Waves turn by width * length; near zero, k = t^4.
+    let power = if start == 0.0 { 4 } else { 1 };
+    let count = fewest + (0.25 * width * length * f64::from(power)).ceil() as usize;
+    for (x, weight) in gauss_legendre(count) {
+        let t = 0.5 * (1.0 + x);
+        let k = start + width * t.powi(power);
+        let weight = 0.5 * weight * width * f64::from(power) * t.powi(power - 1);
+        nodes.push(Node::new(k, weight, orders)?);
     }
+    Ok(())
 }

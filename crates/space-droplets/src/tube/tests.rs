@@ -299,6 +299,50 @@ fn flows_on_the_axis_are_those_of_the_axisymmetric_code() {
     }
 }
 
+/// Two spheres of viscosity ratios 10 and 0.1 on the axis, against the axisymmetric code: velocities at both surfaces.
+#[test]
+fn pairs_on_the_axis_flow_as_in_the_axisymmetric_code() {
+    let (count, radius, places, ratios) = (96, 1.6, [-1.4, 1.4], [10.0, 0.1]);
+    let angle = |k: usize| TAU * k as f64 / count as f64;
+    let curves =
+        places.map(|z| (0..count).map(|k| Vec2::new(z, 0.0) + Vec2::from_angle(angle(k))).collect::<Vec<Vec2>>());
+    let tensions: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
+    let mut calculus = MeridianCalculus::new(count).unwrap();
+    let forces = curves.each_ref().map(|curve| {
+        let mut forces = vec![Vec2::ZERO; count];
+        calculus.tension_forces(curve, &tensions, TensionPlacement::Points, &mut forces).unwrap();
+        forces
+    });
+    let settings = Settings { nodes: count, ..Settings::default() };
+    let mut flow = AxisymmetricFlow::new(1.0, settings).unwrap().with_tube(radius).unwrap();
+    flow.load((0..2).map(|i| Interface::closed(&curves[i], &forces[i], [ratios[i], 1.0]))).unwrap();
+    flow.solve().unwrap();
+    let exact = [0, 1].map(|i| {
+        let mut exact = vec![Vec2::ZERO; count];
+        flow.velocities(i, &mut exact).unwrap();
+        exact
+    });
+    let largest = exact.iter().flatten().map(|u| u.x.hypot(u.y)).fold(0.0, f64::max);
+    let error = |degree: usize| {
+        let drop = |i: usize| {
+            marangoni(degree, [ratios[i], 1.0], [0.0, 0.0, 1.0], 1.0).with_position([0.0, 0.0, places[i]]).unwrap()
+        };
+        let pair = SpaceDroplets::new(vec![drop(0), drop(1)]).unwrap();
+        let mut pair = pair.with_surroundings(Tube::new(radius).unwrap()).unwrap();
+        pair.evaluate().unwrap();
+        let difference = |i: usize, k: usize| {
+            let (sin, cos) = angle(k).sin_cos();
+            let (_, velocity, _) = pair.droplets()[i].at([0.6 * sin, 0.8 * sin, cos]).unwrap();
+            let across = 0.6 * velocity[0] + 0.8 * velocity[1];
+            (velocity[2] - exact[i][k].x).hypot(across - exact[i][k].y) / largest
+        };
+        (0..=count).step_by(8).map(|k| difference(k % 2, k / 2)).fold(0.0, f64::max)
+    };
+    let errors = [5, 8].map(error);
+    // The flow in the gap of 0.8 falls by 2.3 for each degree.
+    assert!(errors[1] < 0.1 * errors[0] && errors[1] < 2e-4, "{errors:?}");
+}
+
 /// A swimmer that oscillates nearly in a plane leaves it for a helix: of the two circular motions of the centroid, `z =
 /// a exp(i w t) + b exp(-i w t)`, the larger one grows faster.
 #[test]

@@ -14,6 +14,8 @@ pub(super) const FUNCTIONS: usize = 4;
 
 /// Sums of one order: for each weight the four functions times `cos(k z)`, then times `sin(k z)`.
 pub(super) type Sums = [[[f64; FUNCTIONS]; 2]; MOST_WEIGHTS];
+/// The same for each lane.
+type Totals = [[[Lanes; FUNCTIONS]; 2]; MOST_WEIGHTS];
 /// No sums.
 pub(super) const NONE: Sums = [[[0.0; FUNCTIONS]; 2]; MOST_WEIGHTS];
 
@@ -56,6 +58,8 @@ pub(super) struct Functions {
     /// `cos(k z)` and `sin(k z)` for all groups, then their products with a weight.
     phases: [[Lanes; BLOCK]; 2],
     products: [[Lanes; BLOCK]; 2],
+    /// Sums of each lane, of which one number is made at the end.
+    totals: Vec<Totals>,
     series: Vec<Lanes>,
     /// Inverse of the series at the wall, and its sum.
     wall: Vec<f64>,
@@ -87,7 +91,7 @@ fn series(x: &Lanes, largest: f64, list: &mut [Lanes]) -> Lanes {
     std::array::from_fn(|lane| 2.0 * sum[lane] - here[lane])
 }
 
-/// Returns exp(x), by the series of a part of x and squares.
+/// Returns exp(x), by the series of a fraction of x and squares.
 #[inline(always)]
 fn exponential(x: &Lanes) -> Lanes {
     let halvings = halvings(x);
@@ -106,7 +110,7 @@ fn exponential(x: &Lanes) -> Lanes {
     value
 }
 
-/// Returns cosines and sines, by their series for a part of x and doubled angles.
+/// Returns cosines and sines, by their series for a fraction of x and doubled angles.
 #[inline(always)]
 fn waves(x: &Lanes) -> [Lanes; 2] {
     let halvings = halvings(x);
@@ -210,11 +214,13 @@ impl Functions {
 
     /// Adds the sums of all points over their functions and so many weights, for each order.
     pub(super) fn gather(&mut self, points: &Points, k: f64, weights: usize, sums: &mut [Sums]) {
+        self.totals.clear();
+        self.totals.resize(sums.len(), [[[[0.0; LANES]; FUNCTIONS]; 2]; MOST_WEIGHTS]);
         for first in (0..points.places[0].len()).step_by(BLOCK) {
             let groups = self.fill(points, first, k, sums.len());
             for weight in 0..weights {
                 let list = &points.weights[weight][first..first + groups];
-                let Self { rows, phases, products, .. } = self;
+                let Self { rows, phases, products, totals, .. } = self;
                 widely(
                     #[inline(always)]
                     || {
@@ -225,9 +231,9 @@ impl Functions {
                                 }
                             }
                         }
-                        for (sums, rows) in sums.iter_mut().zip(rows.chunks_exact(FUNCTIONS * BLOCK)) {
+                        for (sums, rows) in totals.iter_mut().zip(rows.chunks_exact(FUNCTIONS * BLOCK)) {
                             for (sums, product) in sums[weight].iter_mut().zip(&*products) {
-                                let mut totals = [[0.0; LANES]; FUNCTIONS];
+                                let mut totals = *sums;
                                 for group in 0..groups {
                                     for (f, total) in totals.iter_mut().enumerate() {
                                         for lane in 0..LANES {
@@ -235,13 +241,22 @@ impl Functions {
                                         }
                                     }
                                 }
-                                for (sum, total) in sums.iter_mut().zip(&totals) {
-                                    *sum += total.iter().sum::<f64>();
-                                }
+                                *sums = totals;
                             }
                         }
                     },
                 );
+            }
+        }
+        for (sums, totals) in sums.iter_mut().zip(&self.totals) {
+            for (sum, total) in sums[..weights]
+                .as_flattened_mut()
+                .as_flattened_mut()
+                .iter_mut()
+                .zip(totals.as_flattened().as_flattened())
+            {
+                let pairs: [f64; 4] = std::array::from_fn(|lane| total[lane] + total[lane + 4]);
+                *sum += (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
             }
         }
     }
