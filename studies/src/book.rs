@@ -6,8 +6,9 @@
 //! of the columns. It prints them and writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer, shorter and coarser
 //! runs, which the ranges of verdicts are not for: it shows that a figure can be made, and decides and keeps nothing.
 //! `figures --chapter 3` makes the figures of a chapter. `--write` keeps what `docs/book/` shows and writes its pages
-//! and tables from the texts in `studies/book/chapters`; `--write --pictures` makes only what panels show. Checks of
-//! `points` are found from the points in `docs/book/figures` whenever the pages are written (`studies -- pages`).
+//! and tables from the texts in `studies/book/chapters`; `--write --pictures` makes only what panels show, and
+//! `--write --add` only data that are new in the figure's file. Checks of `points` are found from the points in
+//! `docs/book/figures` whenever the pages are written (`studies -- pages`).
 
 mod data;
 mod expression;
@@ -61,6 +62,9 @@ struct Common {
     /// Make only what panels show, and keep the numbers that were found before
     #[arg(long, requires = "write")]
     pictures: bool,
+    /// Make only data that the figure was made without, and keep the points and numbers of its other data
+    #[arg(long, requires = "write", conflicts_with = "pictures")]
+    add: bool,
     /// Runs at a time; without it as many as there are processors
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -88,7 +92,7 @@ impl Making {
 }
 
 /// Record of a figure that was made, in `docs/book/figures`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Kept {
     runs: usize,
     left_out: usize,
@@ -239,7 +243,19 @@ fn without_quick(number: &str, making: &Making) -> Result<Option<String>> {
 fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common: &Common) -> Result<()> {
     let (figure, definitions) = (read(number)?, definitions()?);
     say(format_args!("\nFigure {number}: {}\n{}: {}", figure.title, said_by(number), figure.says));
+    let before = common.add.then(|| pages::kept(number)).transpose()?.flatten();
+    let points_before = if before.is_some() { witnesses::kept(number)? } else { Vec::new() };
+    // Data that the figure was made with are known by their descriptions.
+    let is_new = |name: &String| -> Result<bool> {
+        let Some(before) = &before else { return Ok(true) };
+        Ok(!before.data.contains(&Source::read(name)?.about))
+    };
+    let mut own = Vec::new();
     for name in figure.data.iter().filter(|name| !common.pictures || figure.shows(name)) {
+        if !is_new(name)? {
+            continue;
+        }
+        own.push(name.clone());
         if !made.contains_key(name) {
             made.insert(name.clone(), Source::read(name)?.rows(name, making)?);
         }
@@ -249,8 +265,10 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common:
         say(format_args!("No data of its own: {command}"));
         return Ok(());
     }
-    let (plots, points) = figure.panels(&definitions, made)?;
-    let mut given = made.clone();
+    ensure!(!(own.is_empty() && common.add), "figure {number} was made with all of its data: leave --add out");
+    let mut given: BTreeMap<String, Data> =
+        own.iter().filter_map(|name| Some((name.clone(), made.get(name)?.clone()))).collect();
+    let (plots, points) = figure.panels(&definitions, &given, &points_before)?;
     given.insert(POINTS.to_owned(), Data::in_points(&points));
     for name in figure.others() {
         given.insert(name.to_owned(), Data::of_points(name, number)?);
@@ -270,19 +288,18 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common:
     if common.pictures {
         return Ok(());
     }
-    let checks = figure.checks(&definitions, &given)?;
-    for check in &checks {
+    let found = figure.checks(&definitions, &given, before.as_ref().map_or(&[], |before| &before.checks))?;
+    for check in &found {
         say(format_args!("  {}: {}", check.name, check.text));
     }
-    let own = || figure.data.iter().filter_map(|name| made.get(name));
-    let kept = Kept {
-        runs: own().map(|data| data.wanted).sum(),
-        left_out: own().map(|data| data.failures.len()).sum(),
-        failures: own().flat_map(|data| data.failures.clone()).collect(),
-        seconds: own().map(|data| data.seconds).sum(),
-        data: own().map(|data| data.about.clone()).collect(),
-        checks,
-    };
+    let mut kept = Kept { checks: found, ..before.unwrap_or_default() };
+    for data in own.iter().filter_map(|name| given.get(name)) {
+        kept.runs += data.wanted;
+        kept.left_out += data.failures.len();
+        kept.failures.extend(data.failures.clone());
+        kept.seconds += data.seconds;
+        kept.data.push(data.about.clone());
+    }
     if making.quick {
         let empty: Vec<&str> =
             kept.checks.iter().filter(|check| check.is_empty()).map(|check| check.name.as_str()).collect();

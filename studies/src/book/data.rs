@@ -54,7 +54,7 @@ const LONGEST: usize = 40;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct Source {
     /// Description in words.
-    about: String,
+    pub(super) about: String,
     /// A plan as those of [`motile_cli::sweep`], its scene in it.
     #[serde(default)]
     plan: Option<Table>,

@@ -344,10 +344,23 @@ impl Figure {
         curves().any(|curve| curve.points.data.as_ref().or(self.data.first()).is_some_and(|data| data == name))
     }
 
-    /// All that is found, or a sentence about what is wrong in its file.
-    pub(super) fn checks(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Checked>> {
+    /// All that is found, or a sentence about what is wrong in its file. What was found `before` stays where its data
+    /// are not there.
+    pub(super) fn checks(
+        &self,
+        common: &Definitions,
+        data: &BTreeMap<String, Data>,
+        before: &[Checked],
+    ) -> Result<Vec<Checked>> {
         let definitions = self.definitions(common)?;
-        self.check.iter().map(|check| self.checked(check, &definitions, data).context(check.name.clone())).collect()
+        let found = |check: &Check| {
+            let is_there = check.points.data.as_ref().or(self.data.first()).is_some_and(|name| data.contains_key(name));
+            match before.iter().find(|one| one.name == check.name).filter(|_| !is_there) {
+                Some(before) => Ok(before.clone()),
+                None => self.checked(check, &definitions, data).context(check.name.clone()),
+            }
+        };
+        self.check.iter().map(found).collect()
     }
 
     fn checked(&self, check: &Check, definitions: &Definitions, data: &BTreeMap<String, Data>) -> Result<Checked> {
@@ -458,8 +471,13 @@ impl Figure {
         Ok(all)
     }
 
-    /// Panels and, as text, the points in them.
-    pub(super) fn panels(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<(Vec<Plot>, String)> {
+    /// Panels and, as text, the points in them. Curves whose data are not there have the points of `before`.
+    pub(super) fn panels(
+        &self,
+        common: &Definitions,
+        data: &BTreeMap<String, Data>,
+        before: &[Point],
+    ) -> Result<(Vec<Plot>, String)> {
         let definitions = self.definitions(common)?;
         let mut table = String::from("panel,curve,group,x,y,deviation\n");
         let mut plots = Vec::new();
@@ -473,7 +491,11 @@ impl Figure {
             }
             let mut colours: Vec<f64> = Vec::new();
             for curve in &panel.curve {
-                let groups = self.groups(&curve.points, &definitions, data).with_context(|| panel.title.clone())?;
+                let name = curve.points.data.as_ref().or(self.data.first());
+                let groups = match name.filter(|name| data.contains_key(*name)) {
+                    None if !before.is_empty() && !panel.shapes => of_before(before, k + 1, &curve.label),
+                    _ => self.groups(&curve.points, &definitions, data).with_context(|| panel.title.clone())?,
+                };
                 for (group, points) in groups {
                     // The same groups of another curve of a panel have the same colour.
                     let known = colours.iter().position(|other| same(*other, group));
@@ -597,6 +619,19 @@ impl Figure {
         }
         Ok(groups)
     }
+}
+
+/// The groups of a curve in points that were made before.
+fn of_before(before: &[Point], panel: usize, label: &str) -> Vec<Group> {
+    let mut groups: Vec<(&str, Group)> = Vec::new();
+    for point in before.iter().filter(|point| point.panel == panel && point.curve == label) {
+        let place = (point.x, point.y, point.deviation);
+        match groups.iter_mut().find(|(name, _)| *name == point.group) {
+            Some((_, (_, points))) => points.push(place),
+            None => groups.push((&point.group, (point.group.parse().unwrap_or(f64::NAN), vec![place]))),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
 }
 
 /// Points that follow each other at the same x as one, with its standard deviation; of a single one with its error.

@@ -36,7 +36,8 @@ pub(super) fn kept_file(number: &str) -> PathBuf {
     folder().join(format!("figures/{number}.json"))
 }
 
-fn kept(number: &str) -> Result<Option<Kept>> {
+/// The record of a figure that was made.
+pub(super) fn kept(number: &str) -> Result<Option<Kept>> {
     let path = kept_file(number);
     if !path.exists() {
         return Ok(None);

@@ -37,6 +37,8 @@ pub(super) enum Measure {
     /// Of the x with several points, how many have a sum of y above 0, of those whose y do not cancel, with the exact
     /// probability that chance alone takes as many or more one way (the sign test).
     Sign,
+    /// The exact probability that chance alone takes as many or more of these above 0 (the one-sided sign test).
+    SignChance,
     /// Where y changes its sign, by linear interpolation; the last of these places.
     Zero,
     /// Where y is greatest.
@@ -117,10 +119,13 @@ impl Measure {
                 (count as f64, format!("of {}", several(points).count()))
             }
             Self::Sign => {
-                let sums: Vec<f64> = several(points).map(|group| group.iter().map(|p| p.1).sum()).collect();
-                let [up, down] = [1.0, -1.0].map(|sign| sums.iter().filter(|sum| sign * **sum > 1e-9).count());
+                let ([up, down], all) = signs(points);
                 let p = shown(sign_test(up, down));
-                (up as f64, format!("of {}, of all {}, p = {p}", up + down, sums.len()))
+                (up as f64, format!("of {}, of all {all}, p = {p}", up + down))
+            }
+            Self::SignChance => {
+                let ([up, down], all) = signs(points);
+                (coins(up, up + down), format!("{up} of {}, of all {all}", up + down))
             }
             Self::Zero => {
                 let crossing = |pair: &[(f64, f64)]| {
@@ -211,17 +216,27 @@ fn wilson(share: f64, n: f64, z: f64) -> [f64; 2] {
     [(middle - half) / scale, (middle + half) / scale]
 }
 
+/// Of points with the same x, how many have a sum of y above 0 and how many below, and how many sums there are.
+fn signs(points: &[(f64, f64)]) -> ([usize; 2], usize) {
+    let sums: Vec<f64> = several(points).map(|group| group.iter().map(|p| p.1).sum()).collect();
+    ([1.0, -1.0].map(|sign| sums.iter().filter(|sum| sign * **sum > 1e-9).count()), sums.len())
+}
+
 /// The probability that fair coins show sides as unequally as `up` and `down` or more so, by the binomial
 /// distribution.
 fn sign_test(up: usize, down: usize) -> f64 {
-    let n = up + down;
-    let mut term = 0.5_f64.powi(n as i32);
+    (2.0 * coins(up.max(down), up + down)).min(1.0)
+}
+
+/// The probability that `count` or more of `all` fair coins show heads.
+fn coins(count: usize, all: usize) -> f64 {
+    let mut term = 0.5_f64.powi(all as i32);
     let mut tail = 0.0;
-    for k in 0..=up.min(down) {
+    for k in 0..=all - count.min(all) {
         tail += term;
-        term *= (n - k) as f64 / (k + 1) as f64;
+        term *= (all - k) as f64 / (k + 1) as f64;
     }
-    (2.0 * tail).min(1.0)
+    tail
 }
 
 /// Points with the same x, where there are several.

@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use motile::setup::Method;
 use motile_cli::sweep::Trial;
 
+use super::figure::Point;
 use super::*;
 
 fn making(quick: bool, name: &str) -> Making {
@@ -11,7 +12,7 @@ fn making(quick: bool, name: &str) -> Making {
 }
 
 fn quick(out: PathBuf) -> Common {
-    Common { quick: true, write: false, pictures: false, threads: Some(1), quiet: true, out }
+    Common { quick: true, write: false, pictures: false, add: false, threads: Some(1), quiet: true, out }
 }
 
 #[test]
@@ -29,7 +30,7 @@ fn every_figure_has_its_file_and_every_plan_its_scenes() {
         let empty = |name: &String| (name.clone(), Data::default());
         let points = figure.others().map(str::to_owned).chain([POINTS.to_owned()]);
         let none: BTreeMap<String, Data> = figure.data.iter().cloned().chain(points).map(|name| empty(&name)).collect();
-        figure.checks(&definitions().expect("definitions"), &none).expect(number);
+        figure.checks(&definitions().expect("definitions"), &none, &[]).expect(number);
     }
     for (name, number) in data {
         let source = Source::read(&name).expect(&number);
@@ -115,7 +116,7 @@ fn what_is_wrong_is_told_in_a_sentence() {
     for (y, expected) in [("spede", "no column spede"), ("speed +", "is missing before"), ("(speed", "')' is missing")]
     {
         let figure: Figure = toml::from_str(&format!("{text}y = \"{y}\"\n")).expect(y);
-        let told = format!("{:#}", figure.checks(&Definitions::new(), &data).expect_err(y));
+        let told = format!("{:#}", figure.checks(&Definitions::new(), &data, &[]).expect_err(y));
         assert!(told.contains(expected), "{y}: {told}");
     }
 }
@@ -129,10 +130,40 @@ fn a_single_row_is_shown_with_its_error_and_several_with_their_deviation() {
         |x: f64, y: f64, e: f64| [("x", x), ("y", y), ("e", e)].map(|(name, value)| (name.to_owned(), value)).into();
     let rows = vec![row(1.0, 5.0, 0.25), row(2.0, 1.0, 0.25), row(2.0, 3.0, 0.25)];
     let data = [("rows".to_owned(), Data { rows, ..Data::default() })].into();
-    let (plots, points) = figure.panels(&Definitions::new(), &data).expect("a panel");
+    let (plots, points) = figure.panels(&Definitions::new(), &data, &[]).expect("a panel");
     assert_eq!(plots.len(), 1);
     let deviation = 2_f64.sqrt();
     assert_eq!(points, format!("panel,curve,group,x,y,deviation\n1,,none,1,5,0.5\n1,,none,2,2,{deviation}\n"));
+}
+
+/// Data that are added to a figure leave the points and numbers of its other data as they were.
+#[test]
+fn what_was_found_before_stays_where_its_data_are_not_there() {
+    let of = |data: &str| {
+        format!(
+            "[[panel]]\nx = \"x\"\ny = \"y\"\n[[panel.curve]]\ndata = \"{data}\"\nx = \"x\"\ny = \"y\"\nby = \"x\"\n\
+             [[check]]\nname = \"{data}\"\nmeasure = \"mean\"\ndata = \"{data}\"\nx = \"1\"\ny = \"y\"\n"
+        )
+    };
+    let head = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\ndata = [\"old\", \"new\"]\n";
+    let figure: Figure = toml::from_str(&[head, &of("old"), &of("new")].concat()).expect("a figure");
+    let data = |name: &str, y: f64| {
+        let rows = [1.5, 2.0].map(|x| [("x".to_owned(), x), ("y".to_owned(), x * y)].into()).to_vec();
+        (name.to_owned(), Data { rows, ..Data::default() })
+    };
+    let common = Definitions::new();
+    let both = [data("old", 3.0), data("new", 5.0)].into();
+    let (_, all) = figure.panels(&common, &both, &[]).expect("panels");
+    let checks = figure.checks(&common, &both, &[]).expect("numbers");
+    let before: Vec<Point> = all.lines().skip(1).filter_map(Point::read).collect();
+    let added = [data("new", 7.0)].into();
+    let (plots, points) = figure.panels(&common, &added, &before).expect("panels");
+    assert_eq!((plots.len(), points), (2, all.replace("1.5,7.5,", "1.5,10.5,").replace("2,10,", "2,14,")));
+    let found = figure.checks(&common, &added, &checks).expect("numbers");
+    assert_eq!(found[0], checks[0]);
+    assert!(found[1].text.starts_with("12.25 ") && checks[1].text.starts_with("8.75 "), "{found:?}, {checks:?}");
+    // Without what was found before, all data are needed.
+    assert!(figure.panels(&common, &added, &[]).is_err() && figure.checks(&common, &added, &[]).is_err());
 }
 
 #[test]
@@ -145,7 +176,7 @@ fn a_verdict_falls_with_its_numbers() {
     for (speed, expected) in [(1.0, "confirmed"), (2.0, "open: speed is 2"), (f64::NAN, "open: speed is ")] {
         let rows = vec![[("speed".to_owned(), speed)].into()];
         let data = [("rows".to_owned(), Data { rows, wanted: 1, ..Data::default() })].into();
-        let checks = figure.checks(&Definitions::new(), &data).expect("numbers");
+        let checks = figure.checks(&Definitions::new(), &data, &[]).expect("numbers");
         let found = verdict(&figure, Some(&figure.judged(&checks)));
         assert!(found.starts_with(expected), "{found}");
     }
@@ -179,7 +210,7 @@ fn verdicts_of_questions_follow_from_their_numbers() {
     ] {
         let row = ["a", "b", "error"].map(str::to_owned).into_iter().zip(numbers).collect();
         let data = [("rows".to_owned(), Data { rows: vec![row], wanted: 1, ..Data::default() })].into();
-        let checks = figure.checks(&Definitions::new(), &data).expect("numbers");
+        let checks = figure.checks(&Definitions::new(), &data, &[]).expect("numbers");
         assert_eq!(verdict(&figure, Some(&figure.judged(&checks))), expected, "{numbers:?}");
     }
     let open = [head, &check("a", "")].concat();

@@ -103,7 +103,7 @@ fn shown(found: &[Point], shown: &[Point]) -> usize {
 }
 
 /// The points that are kept with a figure.
-fn kept(number: &str) -> Result<Vec<Point>> {
+pub(super) fn kept(number: &str) -> Result<Vec<Point>> {
     let path = pages::folder().join(format!("figures/{number}.csv"));
     let text = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
     Ok(text.lines().skip(1).filter_map(Point::read).collect())

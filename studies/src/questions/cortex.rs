@@ -21,8 +21,8 @@ const NODES: [usize; 2] = [32, 96];
 
 /// Thresholds, and swimmers at twice the threshold of the plane and at a fixed activity.
 pub(super) fn cortex() -> Result<Vec<Table>> {
-    let header = "region | viscosity inside | cortex | held | threshold | over the closed form | activity | speed | aspect ratio | \
-                  stresslet | largest concentration";
+    let header = "region | viscosity inside | cortex | held | threshold | over the closed form | activity | speed | \
+                  aspect ratio | stresslet | largest concentration";
     let mut table = Table::new("Swimmers from droplet to cortex", header);
     let regions = [
         ("plane", Region::Plane),

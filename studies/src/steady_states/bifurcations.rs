@@ -176,8 +176,8 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
             Ok(state.critical(mode, parameter)?)
         })
     };
-    let header = "cycle | activity | amplitude | period | mean speed | instants | last harmonics | largest multiplier | of the \
-        shifts less 1";
+    let header = "cycle | activity | amplitude | period | mean speed | instants | last harmonics | largest \
+        multiplier | of the shifts less 1";
     let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", header);
     let row = |at: f64, amplitude: f64, period: f64, speed: f64, rest: &str| {
         format!("{at:.5} | {amplitude:.4} | {period:.3} | {speed:.6} | {rest}")

@@ -72,8 +72,8 @@ impl Crowd {
 }
 
 const RUN: &str = "droplets | fraction | ratio | activity | nodes | seed | time | diameters travelled | polar order at \
-    start | polar order | nematic order | contacts at start | contacts | cluster at start | largest cluster | speed | square \
-    displacement | rotational diffusion | film | area change | steps | end";
+    start | polar order | nematic order | contacts at start | contacts | cluster at start | largest cluster | speed | \
+    square displacement | rotational diffusion | film | area change | steps | end";
 /// What finished runs end with.
 const FINISHED: &str = "finished";
 
@@ -81,8 +81,8 @@ const FINISHED: &str = "finished";
 pub(super) fn tables(flags: &Flags) -> Result<Vec<Table>> {
     let title = "means over runs of suspensions from random starts, with standard errors";
     let columns = "droplets | fraction | ratio | activity | nodes | finished | diameters travelled | polar order at \
-        start | polar order | growth of polar order | contacts a droplet | largest cluster | speed | speed over that at 0.1 | \
-        rotational diffusion";
+        start | polar order | growth of polar order | contacts a droplet | largest cluster | speed | speed over that at 0.1 \
+        | rotational diffusion";
     let mut table = Table::new(title, columns);
     let mut dilute: Vec<(Crowd, [f64; 2])> = Vec::new();
     let mut runs = Table::new("runs of suspensions from random starts", RUN);

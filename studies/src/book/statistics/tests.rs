@@ -52,5 +52,10 @@ fn sign_tests_are_exact() {
         let (found, beside) = Measure::Sign.of(&points);
         let all = up + down + 1;
         assert_eq!((found, beside), (up as f64, format!("of {}, of all {all}, p = {}", up + down, shown(expected))));
+        // One-sided: the sums from `up` on.
+        let one = [(7, 1.0 / 128.0), (0, 1.0), (9, 11.0 / 1024.0), (5, 638.0 / 1024.0)];
+        let one = one.into_iter().find(|(count, _)| *count == up).map(|(_, p)| p);
+        let (found, beside) = Measure::SignChance.of(&points);
+        assert_eq!((Some(found), beside), (one, format!("{up} of {}, of all {all}", up + down)));
     }
 }
