@@ -44,7 +44,7 @@ use spectral::SpectralCurve;
 #[non_exhaustive]
 pub enum Motion {
     /// Markers move with the fluid's normal velocity (its mean removed, which keeps the area) and with a tangential
-    /// velocity W of their own that keeps them equally spaced; the default (docs/explanation/time-stepping.md). The
+    /// velocity W that keeps them equally spaced; the default (docs/explanation/time-stepping.md). The
     /// mobility correction of the immersed boundary method needs equal spacing.
     Equidistributed {
         /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi

@@ -81,7 +81,7 @@ impl ActiveSprings {
 #[derive(Debug, Clone)]
 pub(crate) struct Bonds {
     law: ActiveSprings,
-    /// Bars, and the factor on the tension that each has: a half of its own on the boundary.
+    /// Bars, and the factor on the tension that each has: its own half on the boundary.
     bars: Vec<(Bar, f64)>,
     on: Vec<bool>,
     /// Accepted steps.

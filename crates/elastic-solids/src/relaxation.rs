@@ -78,8 +78,8 @@ pub(crate) struct Relaxation {
     values: Vec<f64>,
     /// Internal variables and what they relaxed towards when the step began.
     before: Vec<[f64; 2]>,
-    /// Shortest relaxation time that stages have (time), a part of the step: one below it is as good as none, and its
-    /// rates would be round-off.
+    /// Shortest relaxation time that stages have (time), a fraction of the step. A shorter one is as good as none, and
+    /// its rates would be round-off.
     shortest: f64,
     /// Positions of a stage.
     stage: Vec<Vec2>,

@@ -1,7 +1,7 @@
 //! Loops in vector registers, and sums of many numbers.
 
 /// Partial sums that a loop adds to at a time: two registers of AVX, so that the additions of one need not wait for
-/// those of the other.
+/// the additions of the other.
 const LANES: usize = 8;
 
 /// Does work whose loops are compiled once for AVX2 and once for the plain instructions, with the widest that the

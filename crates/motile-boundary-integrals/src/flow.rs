@@ -155,8 +155,8 @@ impl BoundaryIntegral {
                 None => "give this wall closer nodes".to_owned(),
             };
             let message = format!(
-                "a corner turns by {text} (radians) between two nodes, which are {spacing} apart, above {limit}: speeds \
-                 beside such a corner are off by about a per cent at nodes 0.1 radii apart; {remedy}"
+                "a corner turns by {text} (radians) between two nodes, which are {spacing} apart, above {limit}: \
+                 speeds beside such a corner are off by about a per cent at nodes 0.1 radii apart; {remedy}"
             );
             let (body, cause) = (format!("walls[{wall}]"), "corners not resolved".into());
             Warning { body, cause, excess: turn / SHARPEST_TURN, message }

@@ -185,7 +185,7 @@ impl RigidWall {
 
     /// Rounds the corners of a wall through points of equal distance, by a Gaussian along the line with the standard
     /// deviation `length` (length). Straight stretches stay, and a bend of radius R moves inwards by `length^2/(2 R)`.
-    /// Nodes resolve right angles if they are no farther apart than 0.8 times the length. Sharper corners need more,
+    /// Nodes resolve right angles if their distance is at most 0.8 times the length. Sharper corners need more,
     /// because a Gaussian leaves them narrower: [`Hydrodynamics::warnings`](motile_scene::Hydrodynamics::warnings)
     /// names the length.
     ///

@@ -29,7 +29,7 @@
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
 //! | tables | [`CsvTable`], [`DropletMeter`], [`SolidMeter`], [`ForcesCsv`], [`WallShearCsv`] |
 //! | many droplets | the module [`suspension`] |
-//! | droplets in three dimensions without symmetry | [`SpaceCsv`], [`SpaceParaView`], [`SpaceSnapshot`], [`SpaceAnimation`] |
+//! | droplets without symmetry | [`SpaceCsv`], [`SpaceParaView`], [`SpaceSnapshot`], [`SpaceAnimation`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | long work | [`Progress`] bar |
 //!

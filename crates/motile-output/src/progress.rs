@@ -121,8 +121,8 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
     }
 }
 
-/// Returns the time left, given the seconds that a part of the work took: as minutes and seconds, or hours, minutes and
-/// seconds.
+/// Returns the time left, given the seconds that a fraction of the work took: as minutes and seconds, or hours, minutes
+/// and seconds.
 fn left(seconds: f64, done: f64) -> String {
     if done.is_nan() || done <= 0.0 {
         return "?".into();

@@ -280,7 +280,7 @@ impl Surfaces {
         pairs
     }
 
-    /// Looks at the gaps from the corners of one body to the boundary of another one or of its own images, below
+    /// Looks at the gaps from the corners of one body to the boundary of another one or of its images, below
     /// `reach` and with the depth that is allowed (length).
     fn add_gaps(&self, [body, other]: [usize; 2], domain: &Domain, [reach, allowed]: [f64; 2], gaps: &mut Gaps) {
         let [from, boundary] = [body, other].map(|index| &self.boundaries[index]);

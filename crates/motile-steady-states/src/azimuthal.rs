@@ -257,8 +257,8 @@ impl System {
     ///
     /// and v' of the forces g' and the displacements eta n by [`stokes_axisymmetric::Disturbances`]. Without a cortex,
     /// the stresses T_1 along the meridian and T_2 around the axis are the tension gamma, and the shear stress
-    /// S sin(m phi) vanishes. A cortex adds `kappa_d (e_1 + e_2) +- mu_s (e_1 - e_2)` to them, and S is 2 mu_s e_12. The
-    /// rates of deformation and their changes are
+    /// S sin(m phi) vanishes. A cortex adds `kappa_d (e_1 + e_2) +- mu_s (e_1 - e_2)` to them, and S is 2 mu_s e_12.
+    /// The rates of deformation and their changes are
     ///
     /// ```text
     /// e_1  = tau.v_s,      e_1' = tau.v'_s + eta_s n.v_s - kappa_1 eta e_1

@@ -464,7 +464,7 @@ impl LimitCycle {
         Ok((Elimination::new(matrix), lacks))
     }
 
-    /// Takes a part of a correction and finds the residual; on failure nothing has changed.
+    /// Takes a fraction of a correction and finds the residual; on failure nothing has changed.
     fn corrected(
         &mut self,
         correction: &DMatrix<f64>,

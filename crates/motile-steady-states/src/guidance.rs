@@ -29,8 +29,8 @@ pub struct Guidance {
 }
 
 impl SteadyState {
-    /// Returns how gradients of the activity and the noise of the particles steer this swimmer in the plane. A turn is
-    /// no change for a swimmer, so that small causes add up: the left null vector of its equations has their effect.
+    /// Returns how gradients of the activity and the noise of the particles steer this swimmer in the plane. A swimmer
+    /// that turns stays as it is, so that small causes add up: the left null vector of its equations has their effect.
     ///
     /// # Errors
     /// Returns an error for another region than the plane, an imposed flow, a droplet without particles, with an

@@ -209,7 +209,7 @@ impl Model {
         };
         if !fields.is_none() {
             return refuse(
-                "the droplet feels fields that are fixed in the laboratory, in which a droplet that moves is not steady",
+                "the droplet feels fields that are fixed in the laboratory, where a moving droplet is not steady",
                 "Leave the fields out, or run the scene",
             );
         }

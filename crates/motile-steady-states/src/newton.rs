@@ -14,7 +14,7 @@ const SMALLEST_CORRECTION: f64 = 3e3 * TOLERANCE;
 const LARGEST_RATE: f64 = 0.1;
 
 impl System {
-    /// Runs Newton's method from a point, for the coefficients of a part of the state. With an equation for a parameter
+    /// Runs Newton's method from a point, for some coefficients of the state. With an equation for a parameter
     /// also for that, and the system is then the one at the value found. On failure, the point is as far as it came.
     pub(crate) fn newton(
         &mut self,

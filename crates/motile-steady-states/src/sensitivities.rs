@@ -39,8 +39,8 @@ pub struct Sensitivities {
     pub observables: Vec<(&'static str, f64)>,
     /// One entry per parameter.
     pub parameters: Vec<Sensitivity>,
-    /// Slowest growth or decay of disturbances with the symmetry of the state (1/time). If it is zero, the state is at a
-    /// fold or a branch point, and derivatives do not exist.
+    /// Slowest growth or decay of disturbances with the symmetry of the state (1/time). If it is zero, the state is at
+    /// a fold or a branch point, and derivatives do not exist.
     pub slowest: f64,
     /// The slowest rate in units of D/R^2. Below 0.05, the state is near a fold or a branch point.
     pub slowest_relative: f64,

@@ -138,7 +138,7 @@ impl SteadyState {
     }
 
     /// Returns true for a droplet at rest, without an imposed flow, that a swimmer cannot have settled to: disturbances
-    /// of its own symmetry grow, as far as they are known.
+    /// with its symmetry grow, as far as they are known.
     fn is_left(&self) -> bool {
         let (Ok(system), speed) = (System::new(self.setup()), self.velocity().length()) else { return false };
         if !system.model.imposed().is_none() || speed > AT_REST * self.diffusion_rate() * system.model.radius {

@@ -288,6 +288,9 @@ impl SteadyState {
     /// Returns the spectrum of the equations linearised about this state: growth rates and frequencies of small
     /// disturbances.
     ///
+    /// With a cortex in three dimensions whose viscosity is above about `eta R`, the spectrum also has modes at the poles
+    /// that the droplet lacks, and above `3 eta R` they grow. Runs are not affected.
+    ///
     /// # Errors
     /// Returns an error if the eigenvalues do not converge or the flow cannot be solved for.
     pub fn spectrum(&self) -> Result<Spectrum, SteadyError> {

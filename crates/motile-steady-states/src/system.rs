@@ -27,7 +27,7 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// Returns the point after a part of a correction.
+    /// Returns the point after a fraction of a correction.
     pub(crate) fn corrected(&self, correction: &Correction, part: f64) -> Self {
         let mut next = self.clone();
         next.state += part * &correction.state;
@@ -155,7 +155,7 @@ impl System {
         self.modes.analyse(h, m)
     }
 
-    /// Returns the derivatives of the rates of a part of the state by its coefficients (1/time), by central
+    /// Returns the derivatives of some rates of the state by their coefficients (1/time), by central
     /// differences.
     pub(crate) fn jacobian(&mut self, point: &Point, part: Part) -> Result<DMatrix<f64>, SteadyError> {
         self.differences(point, part, DIFFERENCE, None)
@@ -277,7 +277,7 @@ impl System {
     }
 
     /// Returns the derivatives of area or volume and of the number of particles, over their values for the droplet, by
-    /// the coefficients of a part of the loaded state.
+    /// some coefficients of the loaded state.
     pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<Vec<DVector<f64>>, SteadyError> {
         let range = self.modes.part(part);
         let [radius, density] = self.modes.scales();

@@ -55,8 +55,8 @@
 //!
 //! - `toml`: descriptions are read from and written to TOML.
 //! - `rayon`: several threads for large grids and many markers, with bitwise identical results.
-//! - `without-symmetry` (on by default): scenes of droplets in three dimensions without symmetry. A program for browsers
-//!   is smaller without it, and refuses such scenes.
+//! - `without-symmetry` (on by default): scenes of droplets in three dimensions without symmetry. A program for
+//!   browsers is smaller without it, and refuses such scenes.
 
 pub mod prelude;
 mod recommend;

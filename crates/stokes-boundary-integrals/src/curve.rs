@@ -271,7 +271,7 @@ impl Curve {
     }
 
     /// Sums images in walls over so many nodes in place of each node from now on: a number above the number of fine
-    /// nodes takes samples of its own.
+    /// nodes takes samples between them.
     pub(crate) fn refine_for_walls(&mut self, transforms: &mut Transforms, factor: usize) -> Result<(), InputError> {
         self.factor = factor;
         if factor > REFINEMENT {

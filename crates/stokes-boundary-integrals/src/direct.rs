@@ -41,7 +41,7 @@ pub(crate) struct CurvePair {
     /// The curve with fewer nodes.
     pub(crate) target: usize,
     pub(crate) source: usize,
-    /// True for a curve with itself, false for a curve with an image of its own.
+    /// True for a curve with itself, false for a curve with one of its images.
     pub(crate) own: bool,
     pub(crate) kernel: AnyPair,
 }

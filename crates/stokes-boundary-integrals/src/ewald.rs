@@ -310,7 +310,7 @@ impl Ewald {
         });
     }
 
-    /// Computes a part of the smooth flow of what the entries carry on the grid.
+    /// Computes one quantity of the smooth flow of what the entries carry on the grid.
     fn spread(&mut self, double: bool, part: Part) {
         let Self { window, lattice, rows, columns, cells, carried: [a, b, c], .. } = self;
         let (window, lattice, cells) = (&*window, &*lattice, &*cells);

@@ -34,8 +34,8 @@ const DRIFT: f64 = 1.21;
 /// the viscosity and the forces move slowly.
 ///
 /// **Accuracy.** Iterations end when the residual r, in the norm `sqrt(r . S r)`, is below
-/// [`TwoPhaseStokes::tolerance`] times that of the forces. [`SolveReport::residual`] is the true residual, recomputed
-/// from the solution.
+/// [`TwoPhaseStokes::tolerance`] times the norm of the forces. [`SolveReport::residual`] is the true residual,
+/// recomputed from the solution.
 ///
 /// [`StokesSolver::viscosity`] is the viscosity of S, by convention the viscosity of the exterior fluid.
 ///

@@ -6,7 +6,7 @@ use super::spline::PeriodicSpline;
 use crate::InterfaceError;
 
 /// Largest ratio of neighbouring sides that a spline goes through without points between: beyond it the longer side
-/// bulges by a fraction of its own length, not of the length of its neighbour.
+/// bulges by a fraction of its length, not of the length of its neighbour.
 const MOST_UNEVEN: f64 = 3.0;
 /// Largest distances of the curve from a side, over the shortest of the side and its two neighbours; later ones are
 /// tried if the curve crosses itself. That of a circle from its octagon is 0.1.
@@ -57,7 +57,7 @@ impl NearPolygon {
         Err(InterfaceError::crossing_points(first, second))
     }
 
-    /// Creates the curve within that part of the sides from the polygon.
+    /// Creates the curve within that fraction of the sides from the polygon.
     fn within(points: &[Vec2], advance: Vec2, part: f64) -> Result<Self, InterfaceError> {
         let count = points.len();
         let end = |k: usize| if k + 1 < count { points[k + 1] } else { points[0] + advance };

@@ -55,7 +55,7 @@ impl BrownianPath {
         mixed(self.seed ^ mixed(path) ^ mixed(interval.to_bits()).rotate_left(17))
     }
 
-    /// Returns the path from the start of an interval to a part of it, over the root of its length.
+    /// Returns the path from the start of an interval to a fraction of it, over the root of its length.
     fn within(&self, path: u64, interval: f64, part: f64) -> f64 {
         let key = self.key(path, interval);
         let (mut low, mut length, mut node) = (0.0, 1.0_f64, 1_u64);

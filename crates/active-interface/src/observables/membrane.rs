@@ -17,7 +17,7 @@ pub struct MembraneMeasures {
 }
 
 impl MembraneMeasures {
-    /// Returns the measures of an interface; `None` if it is no membrane, or not a closed line.
+    /// Returns the measures of an interface; `None` for another interface than a closed membrane.
     pub(crate) fn of(interface: &ActiveInterface) -> Option<Self> {
         let closed = interface.advance() == 0.0 && !interface.is_axisymmetric();
         let membrane = interface.law.bending.is_some() || interface.law.cortex.inextensible;

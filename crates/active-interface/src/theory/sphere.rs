@@ -133,7 +133,7 @@ impl Sphere {
     }
 
     /// Returns the velocity (length per time) along theta = pi of the droplet with the concentration `c0 + c1
-    /// cos(theta)`. Without a cortex, it is that of [`marangoni_speed`]. With the activity zeta it is
+    /// cos(theta)`. Without a cortex, it equals [`marangoni_speed`]. With the activity zeta it is
     /// `-2 zeta c1/(3 (3 eta_in + 2 eta_ext + 2 kappa_d/R0))`.
     ///
     /// # Errors

@@ -16,8 +16,8 @@ const SHARPEST_TURN: f64 = 0.9 * PI;
 /// Distance of nodes over the grid spacing above which the fluid leaks between them.
 const WIDEST: f64 = 1.5;
 /// Errors on a grid over the grid spacing. The first is the error of the forces on a fibre, in units of its length. The
-/// second is the error of the speed of a fibre along which waves travel, in units of the wave length. They were measured
-/// for a hair on a wall with 6 to 24 spacings, and for Taylor's sheet with 16 to 32.
+/// second is the error of the speed of a fibre along which waves travel, in units of the wave length. They were
+/// measured for a hair on a wall with 6 to 24 spacings, and for Taylor's sheet with 16 to 32.
 const THICKNESS: [f64; 2] = [0.7, 5.0];
 /// Error that a run may have without a warning.
 const ALLOWED: f64 = 0.01;

@@ -20,7 +20,7 @@ use raw::RawMesh;
 /// Distance of points from their plane up to which they lie in it, over the extent of the mesh (no dimension).
 const FLAT: f64 = 1e-6;
 
-/// Group of points on lines that belong together, such as a part of the boundary: a physical group of curves in Gmsh.
+/// Group of points on lines that belong together, such as one side of the boundary: a physical group of curves in Gmsh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BoundaryGroup {
     /// Number of the group.

@@ -24,7 +24,8 @@ pub(super) trait Lanes: Copy {
     /// Returns `a b + c`, each with each, rounded once where the machine has an instruction for it.
     fn mul_add(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
 
-    /// Returns the sums of the numbers of a and of those of b: first with second and third with fourth, then the two.
+    /// Returns the sum of the numbers of a and the sum of the numbers of b: first with second and third with fourth,
+    /// then the two.
     fn sums(self, a: Self::Four, b: Self::Four) -> [f64; 2];
 }
 

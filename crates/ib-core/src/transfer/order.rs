@@ -5,7 +5,7 @@ use motile_base::Vec2;
 use super::locations::Location;
 use crate::Kernel;
 
-/// Markers that are spread in an order of their own.
+/// Markers that are spread in another order than the caller's.
 pub(super) const BLOCK: usize = 64;
 
 /// Distance between one marker of a block and the next.

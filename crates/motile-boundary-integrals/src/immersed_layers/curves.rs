@@ -25,7 +25,7 @@ struct Curve {
     markers: Vec<(usize, i32)>,
     /// Advance of the curve in a turn of the parameter (length).
     advance: f64,
-    /// Where its points, its nodes and its grid nodes start in the lists of all curves.
+    /// First entries of its points, its nodes and its grid nodes in the lists of all curves.
     starts: [usize; 3],
     /// Series through values at its points, its nodes and its grid nodes.
     series: [PeriodicSeries; 3],

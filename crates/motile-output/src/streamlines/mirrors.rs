@@ -56,7 +56,7 @@ impl Mirrors {
         (0..2).all(|k| self.offset(p, k).is_none_or(|offset| offset > 0.0) || self.is_on(p, k))
     }
 
-    /// Returns true for points nearer to an image of their own than a distance, those on a mirror line apart.
+    /// Returns true for points nearer to one of their images than a distance, those on a mirror line apart.
     pub(crate) fn is_near_image(&self, p: Vec2, distance: f64) -> bool {
         (0..2).any(|k| !self.is_on(p, k) && self.gap(p, k).is_some_and(|gap| gap < distance))
     }

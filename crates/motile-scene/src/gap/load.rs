@@ -3,7 +3,7 @@
 use super::{Films, Repulsion, Surfaces, films::Contact};
 use motile_base::Vec2;
 
-/// Load of a repulsion in a state: its part of the stress, and the films that it holds.
+/// Load of a repulsion in a state: its share of the stress, and the films that it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RepulsionLoad {

@@ -7,9 +7,9 @@ use motile_base::{Drive, FlowSample, InputError, PeriodicSeries, Vec2, within};
 use crate::{FluidView, Handle, Hydrodynamics, Markers, ObstacleLoad, SceneError, System, body::Body};
 
 /// Points on a wall at first, and at most, when its shear stress is integrated.
-const POINTS: [usize; 2] = [64, 4096];
+pub(super) const POINTS: [usize; 2] = [64, 4096];
 /// Fraction by which twice as many points may change the forces on the walls.
-const SETTLED: f64 = 1e-10;
+pub(super) const SETTLED: f64 = 1e-10;
 
 /// Forces along a channel, over one period and per unit of depth. They obey
 ///
@@ -332,7 +332,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Returns the viscosities of the fluid at the lower and the upper wall (stress times time).
-    fn viscosities_at_walls(&self, exterior: f64) -> [f64; 2] {
+    pub(super) fn viscosities_at_walls(&self, exterior: f64) -> [f64; 2] {
         let mut found = [(f64::INFINITY, exterior), (f64::NEG_INFINITY, exterior)];
         for group in self.markers().groups() {
             let Some(advance) = group.kind.advance() else { continue };

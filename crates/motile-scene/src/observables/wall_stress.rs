@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use motile_base::{FlowSample, InputError, PeriodicSeries, Vec2};
 
+use super::channel_forces::{POINTS, SETTLED};
 use crate::{Hydrodynamics, SceneError, System, WallOutline};
 
 /// Distances from a wall at which the flow is sampled, over the distance of the wall's points.
@@ -58,8 +59,8 @@ fn slopes(outline: &WallOutline) -> Result<Vec<Vec2>, InputError> {
 
 impl<H: Hydrodynamics> System<H> {
     /// Returns the shear stress of the fluid on each rigid wall besides the straight walls of the region, and the force
-    /// on it, in the present state: in the order of [`System::obstacle_loads`]. The forces are integrals of stresses that
-    /// are sampled at the wall, an independent check of the loads on obstacles.
+    /// on it, in the present state: in the order of [`System::obstacle_loads`]. The forces are integrals of stresses
+    /// that are sampled at the wall, an independent check of the loads on obstacles.
     ///
     /// Walls are in the exterior fluid.
     ///
@@ -69,6 +70,45 @@ impl<H: Hydrodynamics> System<H> {
         self.evaluate()?;
         let outlines = self.hydrodynamics().wall_outlines();
         outlines.iter().map(|outline| self.stress_on(outline)).collect()
+    }
+
+    /// Returns the force of the fluid along x (force) on the straight wall of a channel opposite to its only open rigid
+    /// wall. It is the integral of the shear stress over a period. Before it comes the number of the straight wall: 0 for
+    /// the lower one, 1 for the upper one. It is `None` if there is not exactly one open rigid wall.
+    ///
+    /// # Errors
+    /// Returns the errors of [`System::sample`].
+    pub fn opposite_wall_force(&mut self) -> Result<Option<(usize, f64)>, SceneError> {
+        let (domain, outlines) = (self.hydrodynamics().fluid_view().domain, self.hydrodynamics().wall_outlines());
+        let mut open = outlines.iter().filter(|outline| outline.period != Vec2::ZERO);
+        let (Some(outline), None, Some(heights), Some(period)) =
+            (open.next(), open.next(), domain.walls, domain.periods[0])
+        else {
+            return Ok(None);
+        };
+        self.evaluate()?;
+        // The fluid is above a wall that runs along x.
+        let wall = usize::from(outline.period.x > 0.0);
+        let viscosity = self.viscosities_at_walls(self.hydrodynamics().fluid_view().viscosity)[wall];
+        let factor = if wall == 0 { viscosity * period } else { -viscosity * period };
+        let mut mean = |count: usize, shift: f64| {
+            let x = |k: usize| domain.origin[0] + period * (k as f64 + shift) / count as f64;
+            let points: Vec<Vec2> = (0..count).map(|k| Vec2::new(x(k), heights[wall])).collect();
+            let mut samples = vec![FlowSample::default(); count];
+            self.sample(&points, &mut samples)?;
+            Ok::<_, SceneError>(factor * samples.iter().map(|s| s.gradient[0][1]).sum::<f64>() / count as f64)
+        };
+        let [mut count, most] = POINTS;
+        let mut force = mean(count, 0.0)?;
+        while count < most {
+            let next = 0.5 * (force + mean(count, 0.5)?);
+            let settled = (next - force).abs() <= SETTLED * next.abs();
+            (force, count) = (next, 2 * count);
+            if settled {
+                break;
+            }
+        }
+        Ok(Some((wall, force)))
     }
 
     fn stress_on(&mut self, outline: &WallOutline) -> Result<WallStress, SceneError> {

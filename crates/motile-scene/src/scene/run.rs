@@ -188,7 +188,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
     ///
     /// # Errors
     /// Returns an error for a time or time step that makes no sense or is above the stability limit, before any work;
-    /// the errors of [`Scene::step`]; those of observers.
+    /// the errors of [`Scene::step`] and of observers.
     pub fn go(mut self) -> Result<(), SceneError> {
         self.check()?;
         self.start = self.scene.time();

@@ -84,8 +84,8 @@ impl Setup {
             Method::Layers(layers) => self.check_layers(layers)?,
             Method::Grid(grid) => self.check_grid(grid)?,
             Method::Harmonics(_) => {
-                let remedy = "spherical harmonics compute droplets in three dimensions. Use region = \"space\", a tube, a \
-                              slit or a box with three lengths, or the method integral";
+                let remedy = "spherical harmonics compute droplets in three dimensions. Use region = \"space\", a \
+                              tube, a slit or a box with three lengths, or the method integral";
                 return top.refuse("method", &"harmonics", remedy);
             }
         }
@@ -209,8 +209,8 @@ impl Setup {
     pub(super) fn check_body_force(&self, checked: &Checked<'_>, force: [f64; 2]) -> Result<(), SetupError> {
         let Some(axis) = force.iter().position(|part| *part != 0.0) else { return Ok(()) };
         let key = format!("body-force[{axis}]");
-        let remedy = "in the plane nothing holds a fluid that is pushed, so that no speed exists (Stokes' paradox). Use \
-                      a box or a channel";
+        let remedy = "in the plane nothing holds a fluid that is pushed, so that no speed exists (Stokes' paradox). \
+                      Use a box or a channel";
         checked.require(self.region != Region::Plane, &key, force[axis], remedy)
     }
 

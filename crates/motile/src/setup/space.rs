@@ -86,8 +86,8 @@ impl DropletSetup {
 
 impl Setup {
     /// Returns true if the scene is of droplets in three dimensions without symmetry, which [`HarmonicsMethod`]
-    /// computes. These are all scenes in a slit or in a box in three dimensions. In unbounded fluid and in a tube, these
-    /// are scenes with this method, or with a droplet or a flow that breaks the symmetry about the x axis.
+    /// computes. These are all scenes in a slit or in a box in three dimensions. In unbounded fluid and in a tube,
+    /// these are scenes with this method, or with a droplet or a flow that breaks the symmetry about the x axis.
     #[must_use]
     pub fn lacks_symmetry(&self) -> bool {
         let is_off = |droplet: &DropletSetup| {

@@ -95,7 +95,8 @@ fn a_beating_sheet_swims_at_the_speed_of_taylor() {
     let rate = bending * wave.powi(4) * of_images(wave);
     let follows = rate / rate.hypot(frequency);
     let exact = of_taylor(wave, frequency, height * follows);
-    let speed = |count: usize| {
+    let mut told = Vec::new();
+    let mut speed = |count: usize| {
         let spacing = SIDE / count as f64;
         let beat = FibreWave { amplitude: height * wave * wave, wave_number: wave, frequency, phase: 0.0 };
         let fibre = Fibre::periodic(&flat(count), Vec2::new(SIDE, 0.0), 100.0, bending).unwrap();
@@ -103,6 +104,7 @@ fn a_beating_sheet_swims_at_the_speed_of_taylor() {
         let fibre = fibre.with_rest_length(SIDE * (1.0 + (0.5 * wave * height * follows).powi(2))).unwrap();
         let mut scene = empty(spacing);
         let fibre = scene.add(fibre.with_curvature_wave(beat).unwrap());
+        told.push(thickness(&mut scene));
         let mean = |scene: &Scene<AnyFlow>| {
             let nodes = scene.body(fibre).unwrap().nodes();
             nodes.iter().map(|place| place.x).sum::<f64>() / nodes.len() as f64
@@ -114,14 +116,68 @@ fn a_beating_sheet_swims_at_the_speed_of_taylor() {
         (before - mean(&scene)) / period
     };
     // The velocity on a line of points is of first order in the grid spacing.
-    let speeds = [16, 32].map(speed);
+    let speeds = [16, 32].map(&mut speed);
     let errors = speeds.map(|speed| 1.0 - speed / exact);
+    // The warning tells each of these errors.
+    for (told, error) in told.iter().zip(errors) {
+        assert!(told.is_some_and(|told| (told / error - 1.0).abs() < 0.15), "{told:?} {error}");
+    }
     let order = (errors[0] / errors[1]).log2();
     let limit = (2.0 * speeds[1] - speeds[0]) / exact;
     assert!(
         errors[1] < 0.17 && (order - 1.0).abs() < 0.15 && (limit - 1.0).abs() < 0.025,
         "{errors:?} {order} {limit}"
     );
+}
+
+/// Error that a scene warns of because a fibre is as thick as the grid's spacings; `None` without such a warning.
+fn thickness(scene: &mut Scene<AnyFlow>) -> Option<f64> {
+    let warnings = scene.system_mut().warnings();
+    let found = warnings.iter().find(|warning| warning.cause == "grid too coarse for a fibre")?;
+    // The text tells the same as the excess above one per cent.
+    let text = format!("off by about {:.0} %; halve the spacing", found.excess);
+    assert!(found.message.contains(&text), "{} {text}", found.message);
+    Some(0.01 * found.excess)
+}
+
+/// A hair on the wall of a channel, on a grid of this spacing.
+fn hair(spacing: f64) -> (Scene<AnyFlow>, Handle<Fibre>) {
+    let setup = Setup {
+        region: Region::Channel { length: 4.0, width: 2.0, drive: Drive::Gradient(-1.0) },
+        viscosity: 1.0,
+        method: Method::Grid(GridMethod::of_spacing(spacing)),
+        droplets: Vec::new(),
+        fibres: vec![FibreSetup {
+            shape: FibreShape::Line { from: [0.0, -1.0], to: [0.0, -0.25] },
+            ends: [FibreHold::Clamped, FibreHold::Free],
+            ..FibreSetup::default()
+        }],
+        ..Setup::default()
+    };
+    let Built { scene, fibres, .. } = setup.build().expect("a scene");
+    (scene, fibres[0])
+}
+
+/// The error of the force on the clamp of a hair, against the limit of fine grids, is the error that the warning tells.
+/// A grid as fine as the warning asks for is silent.
+#[test]
+fn a_hair_on_a_coarse_grid_is_told_with_its_error() {
+    let (forces, told): (Vec<f64>, Vec<f64>) = [0.125, 0.0625]
+        .into_iter()
+        .map(|spacing| {
+            let (mut scene, fibre) = hair(spacing);
+            let told = thickness(&mut scene).expect("a warning");
+            scene.run(1.0).go().expect("a run");
+            (scene.observe(fibre).expect("the hair").end_forces[0].x.abs(), told)
+        })
+        .unzip();
+    // The error is of first order.
+    let limit = 2.0 * forces[1] - forces[0];
+    for (force, told) in forces.iter().zip(&told) {
+        let error = force / limit - 1.0;
+        assert!((told / error - 1.0).abs() < 0.25, "{told} {error}");
+    }
+    assert!(thickness(&mut hair(0.0125).0).is_some() && thickness(&mut hair(0.01).0).is_none());
 }
 
 /// A free fibre in a channel that the walls shear, on the grid and next to the grid of layers.

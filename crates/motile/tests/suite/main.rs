@@ -8,6 +8,7 @@ mod dimensions;
 mod fibres;
 #[cfg(feature = "toml")]
 mod files_gone_wrong;
+mod films_at_walls;
 mod friction_and_slip;
 mod gel_in_layer;
 mod graded_friction;

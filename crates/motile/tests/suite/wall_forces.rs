@@ -165,3 +165,55 @@ fn friction_of_the_fluid_takes_part_in_the_balance() {
     assert!(errors[1].iter().all(|error| *error < 5e-3), "{errors:?}");
     assert!((0..2).all(|k| errors[1][k] < 0.4 * errors[0][k].max(1e-3)), "{errors:?}");
 }
+
+/// Forces on the only shaped side of a channel and on the straight wall opposite, and what the pressure drop carries, all
+/// along x.
+fn beside_one_side(setup: &Setup, gradient: f64) -> [f64; 3] {
+    let mut scene = setup.build().expect("a scene").scene;
+    let system = scene.system_mut();
+    let (wall, straight) = system.opposite_wall_force().expect("a flow").expect("one open wall");
+    let found = system.wall_stresses().expect("a flow");
+    let shaped: Vec<_> = found.iter().filter(|wall| !wall.closed).collect();
+    let [side] = shaped[..] else { panic!("one side") };
+    let Region::Channel { length, width, .. } = setup.region else { panic!("a channel") };
+    assert_eq!(wall, usize::from(matches!(setup.walls[0].outline, SolidOutline::WallBelow(_))));
+    [side.force.x, straight, -gradient * length * (side.reach + 0.5 * width)]
+}
+
+/// A flat side below or above the other straight wall: half of what the pressure drop carries is on each.
+#[test]
+fn a_flat_side_and_a_straight_wall_bear_half_of_the_pressure_drop_each() {
+    let gradient = -0.7;
+    let shape = ChannelShape::Straight { width: 2.0 };
+    for outline in [SolidOutline::WallBelow(shape), SolidOutline::WallAbove(shape)] {
+        let setup = in_channel(Drive::Gradient(gradient), vec![WallSetup::new(outline, 0.1)], Vec::new());
+        // From the side at 1 to the wall at 1.5 beyond the centre line.
+        let exact = 0.5 * 0.7 * 2.5 * 6.0;
+        let [side, straight, carried] = beside_one_side(&setup, gradient);
+        assert!(
+            (side / exact - 1.0).abs() < 1e-7 && (straight / exact - 1.0).abs() < 1e-7,
+            "{side} {straight} {exact}"
+        );
+        assert!((carried / (2.0 * exact) - 1.0).abs() < 1e-12, "{carried}");
+    }
+    let both = in_channel(Drive::Gradient(gradient), WallSetup::channel(&shape, 0.1), Vec::new());
+    let mut scene = both.build().expect("a scene").scene;
+    assert!(scene.system_mut().opposite_wall_force().expect("a flow").is_none());
+}
+
+/// A swimmer between a wavy side and a straight wall: the forces on both add up to what the pressure drop carries.
+#[test]
+fn a_wavy_side_and_a_straight_wall_balance_the_pressure_drop() {
+    let gradient = -0.9;
+    let shape = ChannelShape::Sinusoidal { width: 2.4, amplitude: 0.2, waves: 1, phase: 0.4 };
+    let errors = [0.2, 0.1].map(|spacing| {
+        let walls = vec![WallSetup::new(SolidOutline::WallAbove(shape), spacing)];
+        let shape = DropletShape::Round { radius: 0.6 };
+        let droplet = DropletSetup { centre: [-1.2, -0.3], shape, ..DropletSetup::active(-3.0) };
+        let setup = Setup { droplets: vec![droplet], ..in_channel(Drive::Gradient(gradient), walls, Vec::new()) };
+        let [side, straight, carried] = beside_one_side(&setup, gradient);
+        ((side + straight - carried) / side.abs().max(straight.abs())).abs()
+    });
+    println!("{errors:?}");
+    assert!(errors[1] < 1e-5 && errors[1] < 0.2 * errors[0].max(1e-6), "{errors:?}");
+}

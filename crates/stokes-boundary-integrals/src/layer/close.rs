@@ -1,4 +1,4 @@
-//! Corrections of the sums over nodes at nodes close to another curve or to an image of their own.
+//! Corrections of the sums over nodes at nodes close to another curve or to one of their images.
 //!
 //! The sums over nodes are exact where curves are some spacings apart. A node that is closer gets the difference
 //! between the quadrature of [`CloseWeights`](crate::close_weights::CloseWeights) on the fine nodes and the plain sum,

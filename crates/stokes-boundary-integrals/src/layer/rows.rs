@@ -80,7 +80,7 @@ impl Row {
     }
 }
 
-/// Returns the three arrays of a part of a row.
+/// Returns the three arrays of a range of a row.
 #[inline(always)]
 fn thirds(part: &[f64]) -> [&[f64]; 3] {
     let n = part.len() / 3;

@@ -17,8 +17,8 @@
 //!
 //! where y points from the wall into the fluid. The flow that the image in one wall has at the other wall decays over
 //! the width of the channel. So a few modes correct it, however narrow gaps are
-//! ([`Uncorrected::Images`](crate::greens::walls::Uncorrected)). An image that is close to a curve gets the quadrature of
-//! [`CloseWeights`](crate::close_weights::CloseWeights).
+//! ([`Uncorrected::Images`](crate::greens::walls::Uncorrected)). An image that is close to a curve gets the quadrature
+//! of [`CloseWeights`](crate::close_weights::CloseWeights).
 
 use std::f64::consts::TAU;
 

@@ -152,7 +152,7 @@ impl SceneRun {
             summary.put(&format!("walls.{number}_shear_max"), wall.largest(), about);
         }
         let Some(forces) = system.channel_forces()? else {
-            put_balance_between(summary, system, &shaped);
+            put_balance_between(summary, system, &shaped)?;
             let domain = system.hydrodynamics().fluid_view().domain;
             if let (Some(length), Some(height), None) = (domain.periods[0], domain.periods[1], domain.walls) {
                 // The mean pressure gradient of a box carries the forces in it.
@@ -305,23 +305,38 @@ pub(super) fn area(scene: &mut Scene<AnyFlow>, region: Region, droplet: Handle<A
     Ok(scene.system_mut().deformation(droplet)?.area)
 }
 
-/// Adds the pressure drop along a channel between two sides that are not straight, and the balance with the forces on
-/// both sides, on obstacles and on bodies.
-fn put_balance_between<H: Hydrodynamics>(summary: &mut Summary, system: &System<H>, walls: &[WallStress]) {
+/// Adds the pressure drop along a channel, one or both sides of which are not straight, and the balance with the forces
+/// on both sides, on obstacles and on bodies.
+fn put_balance_between<H: Hydrodynamics>(
+    summary: &mut Summary,
+    system: &mut System<H>,
+    walls: &[WallStress],
+) -> Result<()> {
+    let domain = system.hydrodynamics().fluid_view().domain;
     let sides: Vec<&WallStress> = walls.iter().filter(|wall| !wall.closed).collect();
-    let (Some(period), [_, _]) = (system.hydrodynamics().fluid_view().domain.periods[0], sides.as_slice()) else {
-        return;
+    let Some(period) = domain.periods[0] else { return Ok(()) };
+    // A straight side has the force on it, and the reach of its height.
+    let straight = match (sides.as_slice(), domain.walls, system.opposite_wall_force()?) {
+        ([_, _], ..) => None,
+        ([_], Some([below, above]), Some((wall, force))) => {
+            let (name, reach) = if wall == 0 { ("force_lower", -below) } else { ("force_upper", above) };
+            summary.put(name, force, "of the fluid along the straight wall, over a period (force)");
+            Some((force, reach))
+        }
+        _ => return Ok(()),
     };
     let drop = 0.0 - system.report().mean_pressure_gradient[0] * period;
     summary.put("pressure_drop", drop, "over a period, at the end (stress)");
-    let carried = drop * sides.iter().map(|wall| wall.reach).sum::<f64>();
+    let (on_straight, reach) = straight.unwrap_or_default();
+    let carried = drop * (reach + sides.iter().map(|wall| wall.reach).sum::<f64>());
     let pulls = system.markers().forces();
-    let on_walls: f64 = walls.iter().map(|wall| wall.force.x).sum();
+    let on_walls = on_straight + walls.iter().map(|wall| wall.force.x).sum::<f64>();
     let on_bodies = -pulls.iter().map(|force| force.x).sum::<f64>();
     // Forces that cancel leave round-off of all of them.
     let all = walls.iter().map(|wall| wall.force.x.abs()).chain(pulls.iter().map(|force| force.length()));
-    let scale = all.sum::<f64>().max(carried.abs());
+    let scale = all.sum::<f64>().max(carried.abs()).max(on_straight.abs());
     let balance = if scale > 0.0 { (carried - on_walls - on_bodies) / scale } else { 0.0 };
     let about = "pressure drop times the mean width less forces, over the sum of all forces";
     summary.put("force_balance", balance, about);
+    Ok(())
 }

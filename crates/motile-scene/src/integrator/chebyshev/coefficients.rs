@@ -14,7 +14,7 @@ pub(super) struct Stage {
 }
 
 /// The second-order scheme of s stages (Sommeijer, Shampine and Verwer 1998), with the b_0 and b_1 of Verwer and
-/// Sommeijer (2004), for which a part of the rate may be implicit.
+/// Sommeijer (2004), for which some of the rate may be implicit.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Coefficients {
     /// `Y_1 = Y_0 + dt first f_0`; also the factor of the implicit part in every stage.

@@ -176,7 +176,7 @@ impl<H: Hydrodynamics> System<H> {
                 message,
             });
         }
-        let coarse = [self.coarse_pair(), self.coarse_wall()].into_iter().flatten();
+        let coarse = [self.coarse_pair(), self.coarse_wall(), self.coarse_straight()].into_iter().flatten();
         warnings.extend(coarse.map(|gap| self.coarse_warning(&gap, &view)));
         warnings.extend(self.solids_below_bound());
         warnings
@@ -197,6 +197,12 @@ impl<H: Hydrodynamics> System<H> {
         let (view, spacings) = (self.hydrodynamics.fluid_view(), self.hydrodynamics.wall_spacings());
         let walls = self.hydrodynamics.walls().filter(|_| !spacings.is_empty())?;
         self.contacts.surfaces.coarse_wall(&view.domain, view.shape_modes?, walls, spacings)
+    }
+
+    /// Returns the gap between a rigid body and a straight wall that the nodes of the body resolve worst.
+    fn coarse_straight(&self) -> Option<CoarseGap> {
+        let view = self.hydrodynamics.fluid_view();
+        self.contacts.surfaces.coarse_straight(view.shape_modes?, view.domain.walls?)
     }
 
     /// Refuses a body so close to a rigid wall that the nodes of the wall make nothing of the flow between them.

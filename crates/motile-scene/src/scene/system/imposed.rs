@@ -63,7 +63,7 @@ impl fmt::Debug for Imposed {
 }
 
 /// Entries of the state of a scene whose flow changes: the time and the strain, which integrators advance with the
-/// bodies. Each of their stages therefore has the flow and the images of its own time.
+/// bodies. Each of their stages therefore has the flow and the images of its time.
 const CLOCK: usize = 2;
 
 /// The imposed flow with the time and the strain that it is at.

@@ -1,4 +1,4 @@
-//! Work on all bodies, each with its part of flat lists, on several threads.
+//! Work on all bodies, each with its range of flat lists, on several threads.
 
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ impl<'a, T: Send> Parts<'a, T> {
         Self { first: 0, start: 0, entries, bodies, values }
     }
 
-    /// Calls `work` with the number of each body, the body, its range of a list, and its part of the values that are
+    /// Calls `work` with the number of each body, the body, its range of a list, and its range of the values that are
     /// written. Numbers of entries are `len` of the number and the body. Gives the first body that fails, and its
     /// error: on one thread those after it are left alone.
     pub(super) fn each(

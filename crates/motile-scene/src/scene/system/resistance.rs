@@ -102,7 +102,7 @@ impl Balance {
     }
 }
 
-/// Calls `act` with each viscous body, its markers, and its part of the stresses.
+/// Calls `act` with each viscous body, its markers, and its range of the stresses.
 fn each(bodies: &mut Bodies, mut act: impl FnMut(&mut dyn Viscous, Range<usize>, Range<usize>)) {
     let Bodies { list, markers, .. } = bodies;
     let mut first = 0;
@@ -148,7 +148,7 @@ fn largest(forces: &[Vec2]) -> f64 {
 }
 
 impl Resistance {
-    /// Makes the markers' forces and velocities those of each other.
+    /// Makes the markers' forces and velocities fit each other.
     pub(super) fn solve<H: Hydrodynamics>(
         &mut self,
         flow: &mut H,
