@@ -450,6 +450,11 @@ impl Model {
         self.rings.is_some()
     }
 
+    /// Returns true if the interface has viscosities of its own.
+    pub(crate) fn has_cortex(&self) -> bool {
+        self.resistance.as_ref().is_some_and(|resistance| resistance.has_cortex())
+    }
+
     /// Takes over a state and solves for its flow.
     pub(crate) fn load(&mut self, base: &Base, offsets: &[f64], density: &[f64]) -> Result<(), SteadyError> {
         self.positions.iter_mut().zip(base.displaced(offsets)).for_each(|(position, x)| *position = x);

@@ -50,6 +50,11 @@ impl Modes {
         self.series.len()
     }
 
+    /// Returns the largest wave number.
+    pub(crate) fn largest(&self) -> usize {
+        self.largest
+    }
+
     /// Units of offset (length) and density.
     pub(crate) fn scales(&self) -> [f64; 2] {
         self.scales

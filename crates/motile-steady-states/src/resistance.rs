@@ -97,7 +97,7 @@ impl Resistance {
         if self.axisymmetric { self.nodes / 2 + 1 } else { self.nodes }
     }
 
-    fn has_cortex(&self) -> bool {
+    pub(crate) fn has_cortex(&self) -> bool {
         !self.cortex.is_none()
     }
 

@@ -288,8 +288,8 @@ impl SteadyState {
     /// Returns the spectrum of the equations linearised about this state: growth rates and frequencies of small
     /// disturbances.
     ///
-    /// With a cortex in three dimensions whose viscosity is above about `eta R`, the spectrum also has modes at the poles
-    /// that the droplet lacks, and above `3 eta R` they grow. Runs are not affected.
+    /// With a cortex in three dimensions, the spectrum leaves out the two largest waves of the shape, which would make
+    /// up modes at the poles that the droplet lacks.
     ///
     /// # Errors
     /// Returns an error if the eigenvalues do not converge or the flow cannot be solved for.

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
-use motile::base::Region;
 use motile::setup::Setup;
 use motile_output::CsvTable;
 use motile_output::plot::{AxisScale, Figure, Plot, Series};
@@ -103,34 +102,8 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     let rate = leading.map_or(f64::NAN, |mode| mode.value.re);
     let verdict = spectrum.stability().name();
     say(format_args!("{verdict}: the leading growth rate is {rate:.3e} with an error of {:.0e} (1/T)", spectrum.error));
-    if has_strong_cortex(setup)? {
-        eprintln!(
-            "warning: with a cortex of this viscosity in three dimensions, growth rates of modes at the poles are wrong, \
-             and so may be this verdict. Run the scene to see whether the state is stable"
-        );
-    }
     say(format_args!("results in {}", out.display()));
     Ok(())
-}
-
-/// Viscosity of a cortex over `eta R`, up to which growth rates in three dimensions are right. Spurious modes at the poles
-/// are slow from 1, and grow from 3.
-const STRONG_CORTEX: f64 = 0.5;
-
-/// Returns true for a droplet in three dimensions whose spectrum has modes of the cortex at the poles that do not exist.
-fn has_strong_cortex(setup: &Setup) -> Result<bool> {
-    if !matches!(setup.region, Region::Space | Region::Tube { .. }) {
-        return Ok(false);
-    }
-    for droplet in &setup.droplets {
-        let concentration = droplet.particles.as_ref().map_or(0.0, |particles| particles.concentration);
-        let viscous = droplet.cortex.per_concentration * concentration + droplet.cortex.viscosity;
-        let viscosity = viscous.max(droplet.cortex.shear_viscosity);
-        if viscosity > STRONG_CORTEX * setup.viscosity * droplet.shape.radius()? {
-            return Ok(true);
-        }
-    }
-    Ok(false)
 }
 
 /// Returns the shape, concentration over the arc length, leading mode.
@@ -158,20 +131,4 @@ fn figure(state: &SteadyState, spectrum: &Spectrum) -> Result<Figure> {
         }
     }
     Ok(figure)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Growth rates are right up to half of eta R, in two dimensions for any cortex.
-    #[test]
-    fn strong_cortices_in_three_dimensions_are_warned_of() {
-        let told = |text: &str| has_strong_cortex(&Setup::from_toml(text).unwrap()).unwrap();
-        let scene = |region: &str, cortex: &str| told(&format!("region{region}\n[[droplets]]\ncortex.{cortex}\n"));
-        assert!(scene(" = \"space\"", "viscosity = 60.0") && !scene(" = \"space\"", "viscosity = 40.0"));
-        assert!(scene(".tube.radius = 2.0", "shear-viscosity = 60.0"));
-        assert!(scene(" = \"space\"", "per-concentration = 0.6"));
-        assert!(!scene(" = \"plane\"", "viscosity = 1e4"));
-    }
 }

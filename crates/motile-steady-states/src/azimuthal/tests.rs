@@ -153,7 +153,7 @@ fn a_sphere_with_a_cortex_grows_at_the_same_rates_in_every_order() {
 #[test]
 fn swimmers_with_a_cortex_turn_and_shift_freely() {
     let cortex = Cortex { shear_viscosity: 40.0, per_concentration: 0.3, ..Cortex::new(60.0) };
-    let errors = [48, 72, 96].map(|nodes| {
+    let errors = [64, 96, 128].map(|nodes| {
         let state = SteadyState::find(&with_cortex(cortex, -1.3, [70.0, 100.0], nodes)).unwrap();
         let leading = state.spectrum().unwrap().modes[0].value;
         let matrix = System::new(state.setup()).unwrap().around(state.point(), 0).unwrap();

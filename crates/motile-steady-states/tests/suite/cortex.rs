@@ -79,6 +79,13 @@ fn worst(setup: &Setup, symmetries: &[Symmetry], rates: &[Complex64]) -> f64 {
     all.fold(0.0, f64::max)
 }
 
+/// Largest distance of the leading growth rates of a state at rest to the nearest of the rates, which are all that lead.
+fn worst_leading(setup: &Setup, count: usize, rates: &[Complex64]) -> f64 {
+    let spectrum = SteadyState::uniform(setup).expect("as described").spectrum().expect("as described");
+    let nearest = |z: Complex64| rates.iter().map(|rate| (z - rate).norm()).fold(f64::INFINITY, f64::min);
+    spectrum.modes.iter().take(count).map(|mode| nearest(mode.value)).fold(0.0, f64::max)
+}
+
 #[test]
 fn modes_of_the_circle_grow_as_linear_theory_has_it() {
     // To linear order only the viscosity at the mean concentration counts.
@@ -124,6 +131,25 @@ fn modes_of_the_sphere_grow_as_lamb_has_it() {
         let error = worst(&setup, &[Symmetry::Symmetric], &rates);
         println!("{cortex:?}: {} rates, {error:.1e}", rates.len());
         assert!(error < 1e-7, "{error:.1e}");
+    }
+}
+
+/// A spectrum has no other modes than the sphere has, however strong the cortex.
+#[test]
+fn no_mode_is_added_to_those_of_the_sphere() {
+    for (dilatational, shear) in [(100.0, 0.0), (300.0, 0.0), (0.0, 300.0), (1e4, 0.0), (0.0, 1e4), (1e5, 1e5)] {
+        for (inside, nodes) in [(20.0, 34), (100.0, 48), (1e4, 64)] {
+            let cortex = Cortex { shear_viscosity: shear, ..Cortex::new(dilatational) };
+            let mut setup = scene(-1.0, cortex, Region::Space, nodes);
+            setup.droplets[0].viscosity = Some(inside);
+            let theory = Sphere::new(round(&setup)).unwrap().with_cortex(dilatational).unwrap();
+            let theory = theory.with_shear_viscosity(shear).unwrap();
+            let mut rates = vec![theory.growth_matrix(1).unwrap()[1][1].into()];
+            (2..=16).for_each(|l| rates.extend(eigenvalues(theory.growth_matrix(l).unwrap())));
+            let error = worst_leading(&setup, 8, &rates);
+            println!("{cortex:?}, {inside}: {error:.1e}");
+            assert!(error < 2e-7, "{cortex:?}, {inside}, {nodes} nodes: {error:.1e}");
+        }
     }
 }
 
