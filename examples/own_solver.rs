@@ -42,6 +42,7 @@ impl Hydrodynamics for RegularisedStokeslets {
             spacing: None,
             second_order: false,
             shape_modes: None,
+            nodes: None,
             interface_stiffness: 0.25 * PI / self.size,
         }
     }

@@ -36,16 +36,27 @@ fn every_preset_is_a_scene_and_its_short_text_is_the_same_one() {
 #[test]
 fn scene_files_of_the_repository_stay_the_same_too() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes");
-    let mut count = 0;
+    let (mut count, mut refused) = (0, 0);
     for entry in std::fs::read_dir(folder).expect("the folder") {
         let given = std::fs::read_to_string(entry.expect("a file").path()).expect("a text");
-        let setup = Setup::from_toml(&given).expect("a scene");
+        let setup = match Setup::from_toml(&given) {
+            Ok(setup) => setup,
+            // Built alone, the page has no droplets without symmetry, and says so.
+            Err(error) => {
+                assert!(
+                    error.to_string().contains("without symmetry, which this program was built without"),
+                    "{error}"
+                );
+                refused += 1;
+                continue;
+            }
+        };
         let text = concise(&setup).expect("a text");
         assert_eq!(Setup::from_toml(&text).expect("a scene"), setup, "{text}");
         assert!(text.len() < given.len(), "{text}");
         count += 1;
     }
-    assert!(count > 8, "{count}");
+    assert!(count > 8 && refused < 5, "{count} scenes, {refused} refused");
 }
 
 #[test]

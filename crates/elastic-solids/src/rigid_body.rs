@@ -338,7 +338,7 @@ impl Body for RigidBody {
     /// Returns the error for a body so thin that its nodes do not resolve the distance of its sides.
     fn warnings(&self, view: &FluidView) -> Vec<Warning> {
         let markers = self.outline.len();
-        let nodes = view.shape_modes.unwrap_or(markers);
+        let nodes = view.nodes.unwrap_or(markers);
         let apart = self.thinnest * nodes as f64 / markers as f64;
         if apart >= RESOLVED_SIDES {
             return Vec::new();

@@ -257,6 +257,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             spacing: Some(self.grid().spacing()),
             second_order: self.correction.is_some(),
             shape_modes: None,
+            nodes: None,
             interface_stiffness: self.stiffness,
         }
     }

@@ -97,6 +97,7 @@ impl Hydrodynamics for AxisymmetricIntegral {
             // Velocities come from as many nodes as there are waves: products of two waves of the shape stay below the
             // waves that they would pass for, and the shape free of them, where the tension is low.
             shape_modes: Some(2 * self.flow.settings().nodes / 3),
+            nodes: Some(self.flow.settings().nodes),
             interface_stiffness: self.stiffness,
         }
     }

@@ -240,6 +240,7 @@ impl Hydrodynamics for BoundaryIntegral {
             spacing: None,
             second_order: true,
             shape_modes: Some(self.settings().nodes),
+            nodes: Some(self.settings().nodes),
             interface_stiffness: self.interfaces.stiffness(),
         }
     }

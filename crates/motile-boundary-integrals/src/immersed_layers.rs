@@ -308,6 +308,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
             spacing: Some(grid.spacing()),
             second_order: true,
             shape_modes: Some(self.interfaces.flow.settings().nodes),
+            nodes: Some(self.interfaces.flow.settings().nodes),
             interface_stiffness: self.interfaces.stiffness(),
         }
     }

@@ -81,6 +81,9 @@ pub struct FluidView {
     pub second_order: bool,
     /// Fourier modes along an interface that the flow resolves; `None` if the markers themselves are the resolution.
     pub shape_modes: Option<usize>,
+    /// Nodes of an interface, as the description has them: as many as modes, or more where the flow leaves out the
+    /// largest waves. Warnings speak of nodes. `None` if the markers themselves are the resolution.
+    pub nodes: Option<usize>,
     /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker
     /// displacement normal to an interface of tension gamma decays at most at the rate `stiffness * gamma / viscosity`,
     /// with the mean of the viscosities on both sides. It is a quarter of the largest wave number on a flat interface.

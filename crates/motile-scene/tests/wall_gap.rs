@@ -20,6 +20,7 @@ impl Hydrodynamics for Wind {
             viscosity: 1.0,
             spacing: None,
             shape_modes: None,
+            nodes: None,
             second_order: true,
             interface_stiffness: 1.0,
         }

@@ -232,7 +232,15 @@ impl Hydrodynamics for SpaceFluid {
     fn fluid_view(&self) -> FluidView {
         let domain = Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None };
         let (viscosity, interface_stiffness) = (self.viscosity, 0.0);
-        FluidView { domain, viscosity, spacing: None, second_order: true, shape_modes: None, interface_stiffness }
+        FluidView {
+            domain,
+            viscosity,
+            spacing: None,
+            second_order: true,
+            shape_modes: None,
+            nodes: None,
+            interface_stiffness,
+        }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

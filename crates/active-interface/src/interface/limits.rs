@@ -16,9 +16,10 @@ use crate::concentration::{Flux, element_peclet};
 /// resolved, on however fine a grid: speeds may be off by 1 % (measured by the study `warnings`).
 pub(crate) const PECLET_LIMIT: f64 = 0.35;
 
-/// Nodes of a swimmer's shape below which its speed is off by more than 1 %. At activities of -2, -3 and -4, with 600
-/// elements, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1, 0 and -0.6 with 24.
-const LEAST_NODES: usize = 24;
+/// Modes of a swimmer's shape, in the plane the number of nodes, below which its speed is off by more than 1 %. At
+/// activities of -2, -3 and -4, with 600 elements, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1, 0
+/// and -0.6 with 24. In three dimensions at -2, in a tube of 1.4 radii, it is off by 2.4 % with 16 modes, 0.6 % with 22.
+const LEAST_MODES: usize = 24;
 /// Error of the speed of swimmers with the upwind flux, in %: 2.9 to 6.6 with 192 elements at activities of -2 to -4.
 const UPWIND_ERROR: f64 = 3.5;
 
@@ -326,12 +327,15 @@ impl ActiveInterface {
             );
             ("edge of the concentration not resolved", peclet / PECLET_LIMIT, message)
         });
-        let few = view.shape_modes.filter(|nodes| *nodes < LEAST_NODES && self.carries()).map(|nodes| {
+        let few = view.shape_modes.filter(|modes| *modes < LEAST_MODES && self.carries()).map(|modes| {
+            let nodes = view.nodes.unwrap_or(modes);
+            // In three dimensions, nodes carry two thirds as many modes.
+            let least = (LEAST_MODES * nodes).div_ceil(modes.max(1));
             let message = format!(
                 "{nodes} nodes carry too few waves of the shape: the speed is off by up to two per cent, the \
-                 stresslet by more, with however many elements; use {LEAST_NODES} nodes or more"
+                 stresslet by more, with however many elements; use {least} nodes or more"
             );
-            ("shape not resolved", LEAST_NODES as f64 / nodes as f64, message)
+            ("shape not resolved", LEAST_MODES as f64 / modes as f64, message)
         });
         let upwind = self.scheme.transport.as_ref().is_some_and(|transport| transport.flux() == Flux::Upwind);
         let smeared = upwind.then(|| {

@@ -23,6 +23,7 @@ impl Hydrodynamics for Converging {
             second_order: true,
             interface_stiffness: 1.0,
             shape_modes: self.smooth.then_some(41),
+            nodes: self.smooth.then_some(41),
         }
     }
 

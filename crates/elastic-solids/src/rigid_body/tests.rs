@@ -11,7 +11,15 @@ fn body() -> RigidBody {
 
 fn view() -> FluidView {
     let domain = motile_scene::Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None };
-    FluidView { domain, viscosity: 1.0, spacing: None, second_order: true, shape_modes: None, interface_stiffness: 1.0 }
+    FluidView {
+        domain,
+        viscosity: 1.0,
+        spacing: None,
+        second_order: true,
+        shape_modes: None,
+        nodes: None,
+        interface_stiffness: 1.0,
+    }
 }
 
 #[test]
@@ -68,7 +76,7 @@ fn slender_bodies_need_more_nodes() {
         let points: Vec<Vec2> = (0..count).map(|k| Vec2::new(a * at(k).cos(), b * at(k).sin())).collect();
         RigidBody::new(&points).unwrap().named("rod")
     };
-    let look = |body: &RigidBody, nodes: usize| body.warnings(&FluidView { shape_modes: Some(nodes), ..view() });
+    let look = |body: &RigidBody, nodes: usize| body.warnings(&FluidView { nodes: Some(nodes), ..view() });
     // The sides of an ellipse are 2 b apart where nodes are 2 pi a/nodes apart, for which 76 nodes do; towards its tips
     // it is a sixth less.
     for count in [200, 3000] {

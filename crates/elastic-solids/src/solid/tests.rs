@@ -21,6 +21,7 @@ pub(crate) fn fluid_view() -> FluidView {
         spacing: Some(0.2),
         second_order: true,
         shape_modes: None,
+        nodes: None,
         interface_stiffness: 1.0,
     }
 }

@@ -40,6 +40,7 @@ fn circles(places: &[Vec2], lengths: [f64; 2]) -> (Surfaces, FluidView) {
         spacing: None,
         second_order: true,
         shape_modes: Some(24),
+        nodes: Some(24),
         interface_stiffness: 1.0,
     };
     (Surfaces::of(bodies), view)

@@ -50,6 +50,7 @@ impl Hydrodynamics for PrescribedFlow {
             spacing: None,
             second_order: true,
             shape_modes: None,
+            nodes: None,
             interface_stiffness: 0.0,
         }
     }

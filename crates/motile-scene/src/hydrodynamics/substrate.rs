@@ -32,7 +32,15 @@ impl Hydrodynamics for Substrate {
     fn fluid_view(&self) -> FluidView {
         let domain = Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None };
         let (viscosity, interface_stiffness) = (self.friction / (4.0 * PI), 1.0 / (PI * 0.05));
-        FluidView { domain, viscosity, spacing: None, second_order: true, shape_modes: None, interface_stiffness }
+        FluidView {
+            domain,
+            viscosity,
+            spacing: None,
+            second_order: true,
+            shape_modes: None,
+            nodes: None,
+            interface_stiffness,
+        }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -27,6 +27,7 @@ impl Hydrodynamics for DragBox {
             viscosity: self.viscosity,
             spacing: Some(self.spacing),
             shape_modes: None,
+            nodes: None,
             second_order: true,
             interface_stiffness: 1.0 / self.spacing,
         }

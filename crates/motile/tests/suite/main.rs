@@ -16,6 +16,7 @@ mod held_bodies;
 mod living_walls;
 #[cfg(feature = "toml")]
 mod noisy_swimmers;
+#[cfg(feature = "toml")]
 mod outline_files;
 mod revolution;
 mod solid_gap;

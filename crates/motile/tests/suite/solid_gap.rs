@@ -116,6 +116,36 @@ fn the_number_of_nodes_that_a_film_needs_is_told() {
     assert!((36..42).contains(&needed) && of(needed + 1).is_none() && of(needed - 2).is_some(), "{told}");
 }
 
+/// In three dimensions a shape has fewer waves than nodes, and what is told is a number of nodes: more than there are, and
+/// enough.
+#[test]
+fn the_number_of_nodes_is_told_in_three_dimensions_too() {
+    let of = |region: Region, nodes: usize, cause: &str| {
+        let setup = Setup {
+            region,
+            method: Method::Integral(motile::setup::IntegralMethod { nodes, elements: 8 * nodes }),
+            droplets: vec![DropletSetup::active(-1.0)],
+            ..Setup::default()
+        };
+        let Built { mut scene, .. } = setup.build().unwrap();
+        let warnings = scene.system_mut().warnings().into_iter();
+        let told = warnings.filter(|warning| warning.cause == cause).map(|warning| warning.message).next()?;
+        let number = told.split("use ").nth(1)?.split(' ').next()?.parse::<usize>().ok()?;
+        Some((told, number))
+    };
+    for (region, nodes, cause) in [
+        (Region::tube(1.03), 40, "thin film"),
+        (Region::tube(1.03), 48, "thin film"),
+        (Region::tube(1.4), 28, "shape not resolved"),
+        (Region::Space, 34, "shape not resolved"),
+    ] {
+        let (told, needed) = of(region, nodes, cause).expect("a warning");
+        assert!(needed > nodes && of(region, needed + 1, cause).is_none(), "{nodes} nodes: {told}");
+        assert!(of(region, needed - 3, cause).is_some(), "{nodes} nodes: {told}");
+        assert!(cause == "thin film" || told.contains(&format!("{nodes} nodes")), "{told}");
+    }
+}
+
 /// A droplet that a constriction squeezes leaves thin films there: the number of nodes is told before the run, not
 /// where it fits through or the nodes are enough.
 #[test]

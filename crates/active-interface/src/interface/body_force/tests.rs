@@ -12,6 +12,7 @@ fn view(region: Region, modes: Option<usize>) -> FluidView {
         spacing: None,
         second_order: true,
         shape_modes: modes,
+        nodes: modes,
         interface_stiffness: 1.0,
     }
 }

@@ -11,6 +11,7 @@ fn view() -> FluidView {
         viscosity: 3.0,
         spacing: Some(0.1),
         shape_modes: None,
+        nodes: None,
         second_order: true,
         interface_stiffness: 0.5,
     }
@@ -57,6 +58,7 @@ fn the_bound_of_an_elastic_interface_by_hand() {
             viscosity: 3.0,
             spacing: Some(0.1),
             shape_modes: None,
+            nodes: None,
             second_order: true,
             interface_stiffness: 0.5,
         };

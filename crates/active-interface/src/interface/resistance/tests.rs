@@ -13,6 +13,7 @@ fn view(shape_modes: Option<usize>) -> FluidView {
         spacing: None,
         second_order: true,
         shape_modes,
+        nodes: shape_modes,
         interface_stiffness: 8.0,
     }
 }

@@ -38,6 +38,7 @@ impl Hydrodynamics for Profile {
             second_order: true,
             interface_stiffness: 1.0,
             shape_modes: None,
+            nodes: None,
         }
     }
 

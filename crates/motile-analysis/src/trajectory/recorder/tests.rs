@@ -33,6 +33,7 @@ impl Hydrodynamics for Wind {
             second_order: true,
             interface_stiffness: 1.0,
             shape_modes: None,
+            nodes: None,
         }
     }
 

@@ -9,7 +9,15 @@ const INTERFACE: MarkerKind = MarkerKind::Interface { viscosity_inside: None };
 fn fluid_view() -> FluidView {
     let domain = Domain { origin: [0.0; 2], periods: [Some(6.0); 2].into(), walls: None };
     let shape_modes = None;
-    FluidView { domain, viscosity: 1.0, spacing: Some(0.1), second_order: true, shape_modes, interface_stiffness: 1.0 }
+    FluidView {
+        domain,
+        viscosity: 1.0,
+        spacing: Some(0.1),
+        second_order: true,
+        shape_modes,
+        nodes: shape_modes,
+        interface_stiffness: 1.0,
+    }
 }
 
 fn circle(x: f64, radius: f64) -> Boundary {

@@ -189,20 +189,20 @@ impl<H: Hydrodynamics> System<H> {
     /// Returns the gap between a rigid body and another body that the nodes resolve worst.
     fn coarse_pair(&self) -> Option<CoarseGap> {
         let view = self.hydrodynamics.fluid_view();
-        self.contacts.surfaces.coarse_pair(&view.domain, view.shape_modes?)
+        self.contacts.surfaces.coarse_pair(&view.domain, view.nodes?)
     }
 
     /// Returns the gap between a body and a rigid wall that the nodes resolve worst.
     fn coarse_wall(&self) -> Option<CoarseGap> {
         let (view, spacings) = (self.hydrodynamics.fluid_view(), self.hydrodynamics.wall_spacings());
         let walls = self.hydrodynamics.walls().filter(|_| !spacings.is_empty())?;
-        self.contacts.surfaces.coarse_wall(&view.domain, view.shape_modes?, walls, spacings)
+        self.contacts.surfaces.coarse_wall(&view.domain, view.nodes?, walls, spacings)
     }
 
     /// Returns the gap between a rigid body and a straight wall that the nodes of the body resolve worst.
     fn coarse_straight(&self) -> Option<CoarseGap> {
         let view = self.hydrodynamics.fluid_view();
-        self.contacts.surfaces.coarse_straight(view.shape_modes?, view.domain.walls?)
+        self.contacts.surfaces.coarse_straight(view.nodes?, view.domain.walls?)
     }
 
     /// Refuses a body so close to a rigid wall that the nodes of the wall make nothing of the flow between them.
@@ -252,7 +252,7 @@ impl<H: Hydrodynamics> System<H> {
         let spacings = groups.map(|group| {
             let markers = &self.bodies.markers.positions[group.range.clone()];
             let perimeter: f64 = markers.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-            perimeter / view.shape_modes.unwrap_or(markers.len()) as f64
+            perimeter / view.nodes.unwrap_or(markers.len()) as f64
         });
         spacings.fold(0.0, f64::max)
     }
@@ -366,7 +366,7 @@ impl<H: Hydrodynamics> System<H> {
 
 /// Returns the advice that resolves films so many times thinner.
 fn finer(view: &FluidView, times: f64) -> String {
-    let nodes = view.shape_modes.map(|nodes| (times * nodes as f64).ceil());
+    let nodes = view.nodes.map(|nodes| (times * nodes as f64).ceil());
     match (on_grid(view), nodes) {
         (Some(_), _) => "a finer grid or boundary integrals".to_owned(),
         (None, Some(nodes)) if (1.0..=MOST_NODES).contains(&nodes) => {
