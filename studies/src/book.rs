@@ -268,10 +268,14 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common:
     ensure!(!(own.is_empty() && common.add), "figure {number} was made with all of its data: leave --add out");
     let mut given: BTreeMap<String, Data> =
         own.iter().filter_map(|name| Some((name.clone(), made.get(name)?.clone()))).collect();
-    let (plots, points) = figure.panels(&definitions, &given, &points_before)?;
+    let (plots, points) = figure.panels(&definitions, &given, &points_before, making.quick)?;
     given.insert(POINTS.to_owned(), Data::in_points(&points));
     for name in figure.others() {
         given.insert(name.to_owned(), Data::of_points(name, number)?);
+    }
+    let left_out = figure.panel_count() - plots.len();
+    if left_out > 0 {
+        say(format_args!("{left_out} of {} panels left out, for which there are no points.", figure.panel_count()));
     }
     let columns = plots.len().min(2);
     let picture = plots.into_iter().fold(Picture::new(columns), Picture::panel);

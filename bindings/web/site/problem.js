@@ -15,11 +15,12 @@ function distance(a, b) {
 const upper = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 const sentence = (text) => upper(text.trim()) + (/[.?!]$/.test(text.trim()) ? "" : ".");
 
-/** Words for a key that a scene does not have. */
-function unknown(key, keys) {
-  const [nearest] = [...keys].sort((a, b) => distance(a, key) - distance(b, key));
-  const guess = nearest && distance(nearest, key) <= Math.max(2, key.length / 3) ? ` Did you mean “${nearest}”?` : "";
-  return `A scene has no key “${key}” here.${guess}\nKeys that can stand here: ${keys.join(", ")}.`;
+/** Words for a key that a scene does not have, or for a word that is no choice there. */
+function unknown(kind, word, words) {
+  const [nearest] = [...words].sort((a, b) => distance(a, word) - distance(b, word));
+  const guess = nearest && distance(nearest, word) <= Math.max(2, word.length / 3) ? ` Did you mean “${nearest}”?` : "";
+  const [what, all] = kind === "key" ? ["A scene has", "Keys"] : ["There is", "Words"];
+  return `${what} no ${kind} “${word}” here.${guess}\n${all} that can stand here: ${words.join(", ")}.`;
 }
 
 /** Words for what the reader of the text stumbles over. */
@@ -28,12 +29,13 @@ function unreadable(message) {
   const quoted = /\n\s*\d+ \| (.*)\n/.exec(message)?.[1]?.trim();
   const reason = (message.split(/\|\s*\^+/).at(-1) ?? message).replace(/[\s.]*Correct this entry\.?\s*$/, "").trim();
   const start = line ? `Line ${line}${quoted ? ` (${quoted})` : ""} cannot be read. ` : "The text cannot be read. ";
-  const field = /unknown (?:field|variant) `([^`]*)`, expected (?:one of )?(.*)/s.exec(reason);
-  if (field) return start + unknown(field[1], [...field[2].matchAll(/`([^`]*)`/g)].map(([, key]) => key));
-  const type = /invalid type: (.*?), expected (.*)/s.exec(reason);
+  const field = /unknown (key|choice) `([^`]*)`, expected (?:one of )?(.*)/s.exec(reason);
+  if (field) return start + unknown(field[1], field[2], [...field[3].matchAll(/`([^`]*)`/g)].map(([, word]) => word));
+  const type = /^(string|boolean|integer|floating point) (.*?), expected (.*)/s.exec(reason);
   if (type) {
-    const wanted = { f64: "a number", usize: "a whole number", bool: "true or false" }[type[2].trim()] ?? type[2];
-    return `${start}It has ${type[1].replace(/^string/, "the text")}. Give ${wanted} instead.`;
+    const found = { string: "the text ", boolean: "" }[type[1]] ?? "the number ";
+    const wanted = type[3] === "a boolean" ? "true or false" : type[3];
+    return `${start}It has ${found}${type[2].replaceAll("`", "")}. Give ${wanted} instead.`;
   }
   if (/key with no value/.test(reason)) return `${start}A key needs a value. Write: key = value.`;
   if (/unclosed/.test(reason)) return `${start}A bracket or a quotation mark is not closed. Close it.`;

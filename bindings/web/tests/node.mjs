@@ -42,12 +42,15 @@ try {
 // Errors in words for people: where, what, and what to do.
 const { plain } = await import(pathToFileURL(resolve(folder, "problem.js")));
 for (const [text, ...words] of [
-  ["viscosity = -1.0", "“viscosity = -1” is not possible.", "Give a positive finite number."],
+  ["viscosity = -1.0", "“viscosity = -1” is not possible.", "Use a positive finite number."],
   ["viscosty = 1.0", "Line 1 (viscosty = 1.0)", "no key “viscosty”", "Did you mean “viscosity”?"],
   ["[[droplets]]\nradius = 1", "Line 2 (radius = 1)", "no key “radius”", "shape"],
   ["no scene", "Line 1 (no scene)", "A key needs a value. Write: key = value."],
   ["[[droplets]]\ncentre = [1", "Line 2", "is not closed. Close it."],
   ["[[droplets]]\nparticles.activity = 'a'", "Line 2", 'the text "a"', "Give a number instead."],
+  ["mirror-symmetric = 3", "Line 1", "the number 3", "Give true or false instead."],
+  ["method.integral.nodes = 1.5", "the number 1.5", "Give a whole number that is not negative instead."],
+  ["region = 'spce'", "no choice “spce”", "Did you mean “space”?"],
   ["region.box.lengths = [1.5, 1.5]\n[[droplets]]", "Droplet 1", "does not fit", "enlarge the region"],
   ["[[droplets]]\n[[droplets]]", "Droplet 2 overlaps droplet 1"],
 ]) {

@@ -471,12 +471,19 @@ impl Figure {
         Ok(all)
     }
 
-    /// Panels and, as text, the points in them. Curves whose data are not there have the points of `before`.
+    /// Number of panels.
+    pub(super) fn panel_count(&self) -> usize {
+        self.panel.len()
+    }
+
+    /// Panels and, as text, the points in them. Curves whose data are not there have the points of `before`. Without
+    /// points, a panel is left out of a quick version, and an error otherwise.
     pub(super) fn panels(
         &self,
         common: &Definitions,
         data: &BTreeMap<String, Data>,
         before: &[Point],
+        quick: bool,
     ) -> Result<(Vec<Plot>, String)> {
         let definitions = self.definitions(common)?;
         let mut table = String::from("panel,curve,group,x,y,deviation\n");
@@ -524,10 +531,10 @@ impl Figure {
                     }
                 }
             }
-            // Short runs of `--quick` may leave nothing of a source, as a bisection without a boundary.
+            // A source may have nothing, as a bisection without a boundary.
             let of = |curve: &Curve| curve.points.data.as_ref().or(self.data.first()).and_then(|name| data.get(name));
             let without = panel.curve.iter().all(|curve| of(curve).is_some_and(|data| data.rows.is_empty()));
-            ensure!(!colours.is_empty() || without, "panel '{}': no points", panel.title);
+            ensure!(!colours.is_empty() || without || quick, "panel '{}': no points", panel.title);
             plots.extend((!colours.is_empty()).then_some(plot));
         }
         Ok((plots, table))

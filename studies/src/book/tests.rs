@@ -130,7 +130,7 @@ fn a_single_row_is_shown_with_its_error_and_several_with_their_deviation() {
         |x: f64, y: f64, e: f64| [("x", x), ("y", y), ("e", e)].map(|(name, value)| (name.to_owned(), value)).into();
     let rows = vec![row(1.0, 5.0, 0.25), row(2.0, 1.0, 0.25), row(2.0, 3.0, 0.25)];
     let data = [("rows".to_owned(), Data { rows, ..Data::default() })].into();
-    let (plots, points) = figure.panels(&Definitions::new(), &data, &[]).expect("a panel");
+    let (plots, points) = figure.panels(&Definitions::new(), &data, &[], false).expect("a panel");
     assert_eq!(plots.len(), 1);
     let deviation = 2_f64.sqrt();
     assert_eq!(points, format!("panel,curve,group,x,y,deviation\n1,,none,1,5,0.5\n1,,none,2,2,{deviation}\n"));
@@ -153,17 +153,17 @@ fn what_was_found_before_stays_where_its_data_are_not_there() {
     };
     let common = Definitions::new();
     let both = [data("old", 3.0), data("new", 5.0)].into();
-    let (_, all) = figure.panels(&common, &both, &[]).expect("panels");
+    let (_, all) = figure.panels(&common, &both, &[], false).expect("panels");
     let checks = figure.checks(&common, &both, &[]).expect("numbers");
     let before: Vec<Point> = all.lines().skip(1).filter_map(Point::read).collect();
     let added = [data("new", 7.0)].into();
-    let (plots, points) = figure.panels(&common, &added, &before).expect("panels");
+    let (plots, points) = figure.panels(&common, &added, &before, false).expect("panels");
     assert_eq!((plots.len(), points), (2, all.replace("1.5,7.5,", "1.5,10.5,").replace("2,10,", "2,14,")));
     let found = figure.checks(&common, &added, &checks).expect("numbers");
     assert_eq!(found[0], checks[0]);
     assert!(found[1].text.starts_with("12.25 ") && checks[1].text.starts_with("8.75 "), "{found:?}, {checks:?}");
     // Without what was found before, all data are needed.
-    assert!(figure.panels(&common, &added, &[]).is_err() && figure.checks(&common, &added, &[]).is_err());
+    assert!(figure.panels(&common, &added, &[], false).is_err() && figure.checks(&common, &added, &[]).is_err());
 }
 
 #[test]
