@@ -106,6 +106,7 @@ impl Setup {
             dict.set_item("area", report.area)?;
             dict.set_item("polygon_perimeter", report.polygon_perimeter)?;
             dict.set_item("perimeter", report.perimeter)?;
+            dict.set_item("resolved_perimeter", report.resolved_perimeter)?;
             dict.set_item("centroid", report.centroid)?;
             Ok(dict)
         };
@@ -151,8 +152,12 @@ impl Setup {
         Self::checked(&whole)
     }
 
-    /// Scene of the description.
+    /// Scene of the description. Warns of values that are legal but rarely meant.
     fn build<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        for hint in self.description.hints() {
+            let (key, text) = hint.split_once(": ").unwrap_or(("", &hint));
+            py.import("warnings")?.call_method1("warn", (format!("{}: {text}", key.replace('-', "_")),))?;
+        }
         py.import("motile._scene")?.getattr("Scene")?.call1((Scene::new(py, &self.description)?,))
     }
 

@@ -47,6 +47,7 @@ def test_a_branch_and_how_it_ends() -> None:
     assert np.array_equal(seen, branch.values)
     assert branch.values[0] == -2 and branch.values[-1] == -3 and branch.end == "end of the range"
     assert np.all(np.diff(branch.speeds) > 0) and np.all(branch.unstable == 0)
+    assert np.array_equal(branch.to_xarray()["speed"].sel(activity=-3), branch.speeds[-1])
     other = start.setup.replace({"droplets.0.particles.activity": -3})
     assert motile.steady(other).speed == pytest.approx(branch.speeds[-1], rel=1e-5)
     with pytest.raises(motile.Error, match="viscosity_ratio") as raised:

@@ -17,6 +17,9 @@ pub(crate) const SINGULAR: f64 = 1e-5;
 /// Part of the size of derivatives by the parameter below which a critical point is not a fold.
 pub(crate) const NO_FOLD: f64 = 1e-5;
 
+/// Largest defect of the law of the unit of length, relative to the observable, without a remark.
+const MOST_DEFECT: f64 = 0.01;
+
 /// Derivatives of the observables of a steady state by each parameter of its scene.
 ///
 /// ```
@@ -44,7 +47,8 @@ pub struct Sensitivities {
     pub slowest: f64,
     /// The slowest rate in units of D/R^2. Below 0.05, the state is near a fold or a branch point.
     pub slowest_relative: f64,
-    /// Remark, if the state is near a fold or a branch point.
+    /// Remark, if the state is near a fold or a branch point, or derivatives break the law of the unit of length by more
+    /// than 1 %. Nodes stay where they are if a length changes, so the law holds up to the errors of nodes.
     pub warning: Option<String>,
 }
 
@@ -254,14 +258,55 @@ impl SteadyState {
                 distance,
             });
         }
-        let warning = near.then(|| {
+        let near = near.then(|| {
             format!(
                 "Near a fold or a branch point: a disturbance of the state's own symmetry changes at a rate of only \
                  {:.1e} (1/time). Derivatives grow without bound there, so use these for small changes alone.",
                 slowest.abs()
             )
         });
+        let coarse = self.remark_on_lengths(wanted, &observables, &parameters);
+        let remarks: Vec<String> = near.into_iter().chain(coarse).collect();
+        let warning = (!remarks.is_empty()).then(|| remarks.join(" "));
         Ok(Sensitivities { observables, parameters, slowest, slowest_relative: slowest / unit, warning })
+    }
+
+    /// Returns a remark if a change of the unit of length changes an observable by another power than its own. The sum of
+    /// power times relative derivative over all parameters is this power.
+    fn remark_on_lengths(
+        &self,
+        wanted: &[Parameter],
+        observables: &[(&'static str, f64)],
+        parameters: &[Sensitivity],
+    ) -> Option<String> {
+        let setup = self.setup();
+        // Lengths that are no parameters.
+        let others = setup.region.slip() != [0.0; 2] || setup.rigid_bodies.len() > 1;
+        if others || Parameter::independent(setup).iter().any(|parameter| !wanted.contains(parameter)) {
+            return None;
+        }
+        let dimensions = if setup.region.is_axisymmetric() { 2 } else { 1 };
+        let defect = |(place, (name, value)): (usize, &(&'static str, f64))| {
+            let power = match *name {
+                "speed" | "stresslet" => 1,
+                "perimeter" => dimensions,
+                "aspect_ratio" | "c_max" | "c_min" => 0,
+                _ => return None,
+            };
+            let terms = parameters.iter().map(|entry| {
+                f64::from(entry.parameter.power_of_length(dimensions)) * entry.value * entry.derivatives[place] / value
+            });
+            Some((*name, (terms.sum::<f64>() - f64::from(power)).abs())).filter(|_| *value != 0.0)
+        };
+        let off = observables.iter().enumerate().filter_map(defect).filter(|(_, defect)| *defect > MOST_DEFECT);
+        let listed: Vec<String> = off.map(|(name, defect)| format!("{name} by {:.1} %", 100.0 * defect)).collect();
+        (!listed.is_empty()).then(|| {
+            format!(
+                "The nodes do not resolve the derivatives by lengths. In sum, they miss what another unit of length would \
+                 change: {}. Use more nodes.",
+                listed.join(", ")
+            )
+        })
     }
 
     /// Returns the size of the stresslet that natural tensions cause (tension times area in space, times length in the

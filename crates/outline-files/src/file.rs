@@ -48,6 +48,8 @@ pub struct OutlineFile {
     pub format: FileFormat,
     /// Its outlines, in their order in the file.
     pub contours: Vec<Contour>,
+    /// True if y runs downwards in the file, as in pictures.
+    y_runs_down: bool,
 }
 
 /// Choice of one of the outlines of a file.
@@ -83,20 +85,20 @@ impl OutlineFile {
         if bytes.iter().all(blank) {
             return Err(OutlineError::format("the file", "it is empty", remedy));
         }
-        let (format, contours) = if bytes.starts_with(b"Iout") {
-            (FileFormat::ImageJ, vec![imagej::read(bytes)?])
+        let (format, (contours, y_runs_down)) = if bytes.starts_with(b"Iout") {
+            (FileFormat::ImageJ, (vec![imagej::read(bytes)?], true))
         } else {
             let text = encoding::text_of(bytes)?;
             match text.bytes().next() {
-                Some(b'<') => (FileFormat::Svg, svg::read(&text)?),
+                Some(b'<') => (FileFormat::Svg, (svg::read(&text)?, true)),
                 Some(b'{' | b'[') => (FileFormat::GeoJson, geojson::read(&text)?),
-                _ => (FileFormat::Csv, csv::read(&text)?),
+                _ => (FileFormat::Csv, (csv::read(&text)?, false)),
             }
         };
         if contours.is_empty() {
             return Err(OutlineError::format("the file", "it has no outline", remedy));
         }
-        let file = Self { format, contours };
+        let file = Self { format, contours, y_runs_down };
         let count: usize = file.contours.iter().map(|contour| contour.points.len()).sum();
         if count > MOST_POINTS {
             let problem = format!("it has {count} points, more than {MOST_POINTS}");
@@ -105,10 +107,10 @@ impl OutlineFile {
         Ok(file)
     }
 
-    /// Returns true if y runs downwards in files of this format, as in pictures.
+    /// Returns true if y runs downwards in this file, as in pictures: in SVG, ImageJ, and GeoJSON of QuPath.
     #[must_use]
     pub fn y_runs_down(&self) -> bool {
-        matches!(self.format, FileFormat::Svg | FileFormat::ImageJ)
+        self.y_runs_down
     }
 
     /// Returns the outline of that choice.
@@ -130,7 +132,11 @@ impl OutlineFile {
         let missing = |wanted: String| OutlineError::Missing { wanted, count, names: names() };
         match choice {
             Choice::Only if count == 1 => Ok(&self.contours[0]),
-            Choice::Only => Err(OutlineError::Several { count, names: names() }),
+            Choice::Only => {
+                let names = names();
+                let named = !names.is_empty() || self.format != FileFormat::Csv;
+                Err(OutlineError::Several { count, names: if named { names } else { self.between_blank_lines() } })
+            }
             Choice::Index(index) => self.contours.get(*index).ok_or_else(|| missing(format!("of the index {index}"))),
             Choice::Name(name) => {
                 let mut found = self.contours.iter().filter(|contour| contour.name.as_ref() == Some(name));
@@ -142,6 +148,16 @@ impl OutlineFile {
                 Ok(first)
             }
         }
+    }
+}
+
+impl OutlineFile {
+    /// Says how many points the outlines of a table have, for a table with a blank line by mistake.
+    fn between_blank_lines(&self) -> String {
+        let sizes = self.contours.iter().take(LISTED).map(|contour| contour.points.len().to_string());
+        let dots = if self.contours.len() > LISTED { ", ..." } else { "" };
+        let sizes = sizes.collect::<Vec<_>>().join(", ");
+        format!("of {sizes}{dots} points: blank lines separate them, so remove blank lines inside an outline")
     }
 }
 

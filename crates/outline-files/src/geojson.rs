@@ -13,8 +13,8 @@ const MOST_BYTES: usize = 1 << 26;
 /// Deepest collection within a collection.
 const DEEPEST: usize = 16;
 
-/// Returns the outlines of a text.
-pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
+/// Returns the outlines of a text, and true if they are regions of a picture, in which y runs downwards.
+pub(crate) fn read(text: &str) -> Result<(Vec<Contour>, bool), OutlineError> {
     if text.len() > MOST_BYTES {
         let problem = format!("it has {:.1e} bytes, more than {:.1e}", text.len() as f64, MOST_BYTES as f64);
         return Err(OutlineError::format("the file", problem, "Use fewer points, or CSV"));
@@ -24,7 +24,17 @@ pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
     })?;
     let mut contours = Vec::new();
     add(&value, None, 0, &mut contours)?;
-    Ok(contours)
+    Ok((contours, is_of_picture(&value, 0)))
+}
+
+/// Returns true for features of QuPath, which are regions of a picture: they have a type of object, or an id of one in
+/// files of older versions.
+fn is_of_picture(value: &Value, depth: usize) -> bool {
+    let own = value.get("properties").is_some_and(|properties| properties.get("objectType").is_some());
+    let id = value.get("id").and_then(Value::as_str).unwrap_or_default();
+    let old = id.starts_with("Path") && id.ends_with("Object");
+    let entries = value.as_array().or_else(|| value.get("features").and_then(Value::as_array));
+    own || old || depth < DEEPEST && entries.is_some_and(|list| list.iter().any(|one| is_of_picture(one, depth + 1)))
 }
 
 /// Adds the outlines of an object.

@@ -17,6 +17,7 @@ from ._scene import FilePath
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,13 @@ class Branch:
     def to_parquet(self, path: FilePath) -> None:
         """Writes the table of `to_pandas` as a parquet file."""
         write_parquet(self.to_pandas(), path)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Table of `to_pandas` along the parameter. At a fold, values of the parameter come twice."""
+        needed("xarray", "a Dataset")
+        frame = self.to_pandas()
+        data: xarray.Dataset = frame.set_index(self.parameter).to_xarray()
+        return data.assign_attrs(frame.attrs)
 
     def _repr_html_(self) -> str:
         """Both ends with their pictures, and the special points, for notebooks."""

@@ -11,6 +11,9 @@ const MOST_UNEVEN: f64 = 3.0;
 /// Largest distances of the curve from a side, over the shortest of the side and its two neighbours; later ones are
 /// tried if the curve crosses itself. That of a circle from its octagon is 0.1.
 const DISTANCES: [f64; 4] = [0.15, 0.05, 0.015, 0.005];
+/// Part of a limit from which on a side is parted: equal sides, as of a rectangle twice as long as wide, which reaches a
+/// limit, are then treated alike in spite of round-off.
+const BELOW: f64 = 1.0 - 1e-9;
 /// Most halvings of sides; a side is then a millionth of a millionth of what it was.
 const HALVINGS: usize = 40;
 /// Most pieces of the curve: where round-off is larger than the distances that are allowed, no halving ends.
@@ -83,7 +86,7 @@ impl NearPolygon {
             let chord = |k: usize| spline.chord(k);
             let parts = |k: usize| {
                 let shortest = neighbours(k, places.len()).into_iter().map(chord).fold(f64::INFINITY, f64::min);
-                chord(k) > MOST_UNEVEN * shortest || distances[k] > bounds[sides[k]]
+                chord(k) > BELOW * MOST_UNEVEN * shortest || distances[k] > BELOW * bounds[sides[k]]
             };
             let halved: Vec<bool> = (0..places.len()).map(parts).collect();
             if !halved.contains(&true) {

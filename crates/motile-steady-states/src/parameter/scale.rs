@@ -59,4 +59,39 @@ impl Parameter {
             Self::Flux => rate * radius.powi(if setup.region.is_axisymmetric() { 3 } else { 2 }),
         }
     }
+
+    /// Returns the power of length in the unit of the parameter, with force, time and number as the other units, for
+    /// interfaces of one dimension or two.
+    pub(crate) fn power_of_length(self, dimensions: i32) -> i32 {
+        match self {
+            Self::Unbinding
+            | Self::ShearRate
+            | Self::ExtensionRate
+            | Self::ViscosityRatio
+            | Self::ExcludedVolumeSteepness
+            | Self::NumberInside => 0,
+            Self::Activity
+            | Self::ExcludedVolume
+            | Self::CortexPerConcentration
+            | Self::Binding
+            | Self::LowerWall
+            | Self::UpperWall
+            | Self::PoiseuilleSpeed
+            | Self::Width
+            | Self::Length
+            | Self::TubeRadius
+            | Self::NucleusRadius
+            | Self::Radius
+            | Self::BoxX
+            | Self::BoxY
+            | Self::PoiseuilleHalfWidth => 1,
+            Self::Diffusion | Self::DiffusionInside => 2,
+            Self::QuadraticExcludedVolume | Self::Flux => 1 + dimensions,
+            Self::Tension | Self::Cortex | Self::CortexShear => 1 - dimensions,
+            Self::ViscosityInside | Self::ViscosityOutside | Self::Concentration | Self::ExcludedVolumeThreshold => {
+                -dimensions
+            }
+            Self::Friction | Self::PressureGradient => -1 - dimensions,
+        }
+    }
 }

@@ -151,6 +151,22 @@ fn defects(found: &Sensitivities, space: bool) -> [f64; 2] {
     worst
 }
 
+/// Derivatives by lengths that the nodes do not resolve are told, with the defect of the scaling law, and others not.
+#[test]
+fn derivatives_by_lengths_that_nodes_do_not_resolve_are_told() {
+    let channel = Region::Channel { length: 8.0, width: 4.0, drive: Drive::Gradient(-0.5) };
+    let mut told = [false; 2];
+    for (nodes, bound) in [(48, 0.01), (160, 0.01)] {
+        let found = SteadyState::find(&setup(channel, -2.0, nodes)).unwrap().sensitivities().unwrap();
+        let [_, defect] = defects(&found, false);
+        println!("{nodes}: {defect:.1e} {:?}", found.warning);
+        let warned = found.warning.as_ref().is_some_and(|warning| warning.contains("derivatives by lengths"));
+        assert_eq!(warned, defect > bound, "{nodes}: {defect:.1e} {:?}", found.warning);
+        told[usize::from(nodes > 100)] = warned;
+    }
+    assert_eq!(told, [true, false]);
+}
+
 /// A cortex, or friction, of exactly zero has a derivative from above: as differences of states on that side have it.
 #[test]
 fn resistances_of_zero_have_derivatives_from_above() {

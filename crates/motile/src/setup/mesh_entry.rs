@@ -1,6 +1,6 @@
 //! Meshes of solids from files and arrays.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::Path;
 
 use elastic_solids::mesh::{BoundaryGroup, MeshFile, PhysicalGroup, TriangleMesh};
@@ -62,7 +62,8 @@ pub struct MeshSetup {
     pub scale: f64,
     /// Place of the origin of the file (length).
     pub place: [f64; 2],
-    /// Factors on the moduli of groups of triangles; 1 for all others.
+    /// Factors on the moduli of groups of triangles; 1 for all others. A triangle of several groups has the product of
+    /// their factors.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<GroupFactor>,
     /// Names of groups of lines whose points are pinned.
@@ -167,15 +168,13 @@ impl MeshSetup {
         };
         let mut factors = vec![1.0; read.triangles.len()];
         for GroupFactor { group, factor } in &read.factors {
-            let found = read.groups.iter().find(|one| one.name == *group);
-            for &triangle in &found.ok_or_else(|| unknown("triangles", group, &read.groups))?.members {
+            for triangle in members(group, &read.groups).ok_or_else(|| unknown("triangles", group, &read.groups))? {
                 *factors.get_mut(triangle).ok_or_else(|| no_member(group, triangle))? *= factor;
             }
         }
         let mut pinned = HashSet::new();
         for name in &read.pinned {
-            let found = read.boundaries.iter().find(|one| one.name == *name);
-            for &point in &found.ok_or_else(|| unknown("lines", name, &read.boundaries))?.members {
+            for point in members(name, &read.boundaries).ok_or_else(|| unknown("lines", name, &read.boundaries))? {
                 let place = read.points.get(point).ok_or_else(|| no_member(name, point))?;
                 pinned.insert(bits(read.at(*place)));
             }
@@ -213,6 +212,13 @@ fn no_member(group: &str, member: usize) -> SetupError {
 /// Exact coordinates.
 fn bits(place: Vec2) -> [u64; 2] {
     [place.x.to_bits(), place.y.to_bits()]
+}
+
+/// Returns the members of all groups of a name, each once; `None` if there is no such group.
+fn members(name: &str, groups: &[MeshGroup]) -> Option<BTreeSet<usize>> {
+    let mut found = groups.iter().filter(|group| group.name == name).peekable();
+    found.peek()?;
+    Some(found.flat_map(|group| &group.members).copied().collect())
 }
 
 /// Groups of a mesh by place: factors on moduli, and points that are pinned.

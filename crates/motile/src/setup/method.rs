@@ -58,6 +58,14 @@ impl Method {
         }
     }
 
+    /// Returns the nodes that carry the shape of a body in two dimensions or with an axis; `None` where markers do.
+    pub(super) fn nodes(&self) -> Option<usize> {
+        match self {
+            Self::Integral(IntegralMethod { nodes, .. }) | Self::Layers(LayersMethod { nodes, .. }) => Some(*nodes),
+            Self::Grid(_) | Self::Harmonics(_) => None,
+        }
+    }
+
     /// Returns the nodes and elements of an interface, or the grid by which its markers are spaced.
     pub(super) fn resolution(&self) -> Result<[usize; 2], &GridMethod> {
         match self {

@@ -3,7 +3,7 @@
 use active_interface::{InterfaceError, polygon_moments};
 use motile_base::internal::Refuse as _;
 
-use super::{DropletSetup, DropletShape, ExcludedVolume, Particles, Setup, checked::Checked};
+use super::{DropletSetup, DropletShape, ExcludedVolume, OutlineReport, Particles, Setup, checked::Checked};
 use crate::SetupError;
 
 /// Markers of the polygon whose area approximates the area of a shape through points.
@@ -90,8 +90,9 @@ impl Setup {
         Ok(())
     }
 
-    /// Returns a sentence for each kind of value that is legal but rarely meant: an activity that is positive, so that
-    /// the droplet does not swim (of the first such droplet).
+    /// Returns a sentence for each kind of value that is legal but rarely meant. An activity may be positive, so that the
+    /// droplet does not swim (of the first such droplet), and the shape of an outline may differ from its polygon
+    /// ([`OutlineReport::remarks`]).
     ///
     /// ```
     /// use motile::prelude::*;
@@ -110,7 +111,8 @@ impl Setup {
                  other apart, so the droplet does not swim by itself. Use a negative activity for a swimmer"
             )
         };
-        positive.map(hint).collect()
+        let outlines = self.outlines().unwrap_or_default();
+        positive.map(hint).chain(outlines.iter().flat_map(OutlineReport::remarks)).collect()
     }
 }
 

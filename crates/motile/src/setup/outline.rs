@@ -154,6 +154,8 @@ impl OutlineSetup {
             }
         };
         let from = match self.origin.unwrap_or(usual) {
+            // Of the curve, which may bulge beyond the polygon more on one side than on the other.
+            OutlineOrigin::Centroid if period.is_none() => centroid(&self.curve_through(&points)?),
             OutlineOrigin::Centroid => given.centroid,
             OutlineOrigin::File => Vec2::ZERO,
             OutlineOrigin::Point(point) => scaled(point),
@@ -235,6 +237,15 @@ impl Source {
         };
         what.map_or(Ok(()), |(what, remedy)| Err(OutlineError::Kind { what, remedy }))
     }
+}
+
+/// Samples of a curve whose centroid is taken.
+const CENTRED: usize = 4096;
+
+/// Returns the centroid of what a curve encloses (length).
+fn centroid(curve: &Curve) -> Vec2 {
+    let samples: Vec<Vec2> = (0..CENTRED).map(|k| curve.point(k as f64 / CENTRED as f64)).collect();
+    samples[0] + motile_base::polygon::area_and_arm(&samples).1
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ use crate::error::quoted;
 
 /// Other names of the columns of x and y.
 const OTHERS: [[&str; 2]; 4] = [["col", "row"], ["column", "row"], ["axis-1", "axis-0"], ["lon", "lat"]];
+/// Names of polar coordinates, whose tables are not those of x and y.
+const POLAR: [&str; 8] = ["theta", "phi", "angle", "azimuth", "r", "rho", "radius", "distance"];
 /// Most names that a message lists.
 const LISTED: usize = 8;
 
@@ -47,6 +49,11 @@ fn named(names: &[String], axis: &str) -> Vec<usize> {
     })
 }
 
+/// Returns true for the word alone, or with a unit or number behind it.
+fn starts_with_word(name: &str, word: &str) -> bool {
+    name.strip_prefix(word).is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphabetic()))
+}
+
 impl Columns {
     /// Returns the columns of a table with names, or of one without.
     pub(super) fn of(header: Option<&[Field<'_>]>, rows: &[&Row<'_>]) -> Result<Self, OutlineError> {
@@ -71,6 +78,11 @@ impl Columns {
             [[x], [y]] => [*x, *y],
             [[], []] => match other() {
                 Some(found) => found,
+                None if names.iter().any(|name| POLAR.iter().any(|polar| starts_with_word(name, polar))) => {
+                    let remedy = "Give x = r cos(theta) and y = r sin(theta) instead, in columns x and y";
+                    let problem = format!("the columns {} are polar coordinates", list());
+                    return Err(OutlineError::format("the header", problem, remedy));
+                }
                 None if names.len() <= 2 => [0, 1],
                 None => return refused(format!("none of the columns {} is x or y", list())),
             },

@@ -119,6 +119,8 @@ fn what_is_wrong_is_told_with_its_line() {
         ("5\n0 0\n1 0\n0 1\n", "line 1 cannot be read: it says that there are 5 points, but 3 follow"),
         ("0,0,0\n1,3,0\n2,3,3\n3,0,3\n", "its first column counts the points"),
         ("# nothing\n", "it has no points"),
+        ("theta,r\n0,1\n1,1.2\n2,1.1\n", "the columns theta, r are polar coordinates. Give x = r cos(theta)"),
+        ("angle_deg;radius (um)\n0;1\n90;1.2\n180;1.1\n", "the columns angle_deg, radius (um) are polar coordinates"),
     ] {
         let error = read(text).unwrap_err().to_string();
         assert!(error.contains(said), "{text}: {error}");

@@ -58,6 +58,17 @@ fn used(bytes: &[u8]) {
     }
 }
 
+/// A blank line by mistake makes two outlines of a table: the message says what separates them.
+#[test]
+fn tables_of_several_outlines_say_what_separates_them() {
+    let file = OutlineFile::from_bytes(b"x,y\n0,0\n1,0\n1,1\n,\n0,1\n-1,0.5\n-1,0\n-.5,-.5\n").unwrap();
+    let error = file.choose(&Choice::Only).unwrap_err().to_string();
+    assert!(
+        error.starts_with("the file has 2 outlines (of 3, 4 points: blank lines separate them, so remove"),
+        "{error}"
+    );
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 

@@ -18,18 +18,33 @@ fn polygons_of_features_and_collections() {
         (format!("{{\"type\":\"MultiPolygon\",\"coordinates\":[[{RING}],[{RING}]]}}"), vec![None, None]),
         (format!("{{\"type\":\"GeometryCollection\",\"geometries\":[{polygon}]}}"), vec![None]),
     ] {
-        let found = read(&text).unwrap();
+        let (found, down) = read(&text).unwrap();
+        assert!(!down, "{text}");
         assert_eq!(found.iter().map(|one| one.name.as_deref()).collect::<Vec<_>>(), names, "{text}");
         assert!(found.iter().all(|one| one.closed && one.points.len() == 5 && one.points[2] == Vec2::new(2.0, 1.0)));
     }
-    let line = read(&format!("{{\"type\":\"LineString\",\"coordinates\":{RING}}}")).unwrap();
+    let (line, _) = read(&format!("{{\"type\":\"LineString\",\"coordinates\":{RING}}}")).unwrap();
     assert!(!line[0].closed);
-    let lines = read(&format!("{{\"type\":\"MultiLineString\",\"coordinates\":[{RING},{RING}]}}")).unwrap();
+    let (lines, _) = read(&format!("{{\"type\":\"MultiLineString\",\"coordinates\":[{RING},{RING}]}}")).unwrap();
     assert!(lines.len() == 2 && lines.iter().all(|line| !line.closed && line.points.len() == 5));
-    let list = read(RING).unwrap();
+    let (list, _) = read(RING).unwrap();
     assert!(list.len() == 1 && list[0].points[2] == Vec2::new(2.0, 1.0));
     let nowhere = format!("[{},{{\"type\":\"Feature\",\"geometry\":null,\"properties\":null}}]", feature("null"));
-    assert_eq!(read(&nowhere).unwrap().len(), 1);
+    assert_eq!(read(&nowhere).unwrap().0.len(), 1);
+}
+
+/// QuPath writes regions of pictures, in the coordinates of the picture.
+#[test]
+fn y_runs_downwards_in_features_of_qupath() {
+    let of = |feature: &str| {
+        let geometry = format!("\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[{RING}]}}");
+        let one = format!("{{\"type\":\"Feature\",{feature},{geometry}}}");
+        let all = format!("{{\"type\":\"FeatureCollection\",\"features\":[{one}]}}");
+        [one, all].map(|text| read(&text).unwrap().1)
+    };
+    assert_eq!(of("\"id\":\"7b\",\"properties\":{\"objectType\":\"annotation\",\"name\":\"cell\"}"), [true; 2]);
+    assert_eq!(of("\"id\":\"PathDetectionObject\",\"properties\":{\"isLocked\":false}"), [true; 2]);
+    assert_eq!(of("\"id\":\"PathOfMine\",\"properties\":{\"name\":\"cell\"}"), [false; 2]);
 }
 
 #[test]

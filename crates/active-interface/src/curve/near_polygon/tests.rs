@@ -118,3 +118,27 @@ fn points_that_no_curve_is_near_are_refused() {
         assert!(Curve::through_points(&octagon).is_err(), "{far}");
     }
 }
+
+/// Sides of rectangles that reach a limit exactly are parted alike: the curve has the symmetry of its points, wherever they
+/// start.
+#[test]
+fn curves_through_rectangles_are_symmetric() {
+    for aspect in [1.0, 1.5, 2.0, 3.0, 4.0, 6.0] {
+        let corners = [[0.0, 0.0], [aspect, 0.0], [aspect, 1.0], [0.0, 1.0]];
+        let mut areas = Vec::new();
+        for first in 0..4 {
+            for turned in [false, true] {
+                let at = |k: usize| Vec2::from(corners[(first + k) % 4]);
+                let turn = |p: Vec2| if turned { Vec2::from_angle(0.7).rotate(p) } else { p };
+                let points: Vec<Vec2> = (0..4).map(|k| turn(at(k))).collect();
+                let curve = Curve::through_points(&points).unwrap();
+                let samples: Vec<Vec2> = (0..1024).map(|k| curve.point(f64::from(k) / 1024.0)).collect();
+                let centroid = samples[0] + motile_base::polygon::area_and_arm(&samples).1;
+                let apart = centroid.distance(turn(0.5 * Vec2::new(aspect, 1.0)));
+                assert!(apart < 1e-5 * aspect, "{aspect} from {first}: {apart:e}");
+                areas.push(curve.area());
+            }
+        }
+        assert!(areas.iter().all(|area| (area / areas[0] - 1.0).abs() < 1e-9), "{aspect}: {areas:?}");
+    }
+}

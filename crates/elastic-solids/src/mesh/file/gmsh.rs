@@ -43,9 +43,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, SolidError> {
             ("Nodes", _) => file.old_nodes()?,
             ("Elements", _) => file.old_elements()?,
             ("PartitionedEntities", _) => return Err(file.at.error("meshes in partitions are not read")),
-            _ => {}
+            _ => {
+                file.at.skip_past(&format!("$End{name}"))?;
+                continue;
+            }
         }
-        file.at.skip_past(&format!("$End{name}"))?;
+        let end = file.at.word()?;
+        if end.strip_prefix("$End") != Some(name) {
+            let problem = format!("the section ${name} goes on after the number of entries that it states");
+            return Err(file.at.error(problem));
+        }
     }
     Ok(file.mesh)
 }

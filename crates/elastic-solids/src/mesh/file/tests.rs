@@ -351,6 +351,10 @@ fn what_is_wrong_is_told_with_a_remedy() {
         ("nothing".to_owned(), "its format is not known. Use Gmsh (.msh)"),
         ("$MeshFormat\n3.0 0 8\n$EndMeshFormat\n".to_owned(), "its version is 3.0. In Gmsh, save triangles"),
         ("$Nodes\n0\n$EndNodes\n".to_owned(), "does not start with $MeshFormat"),
+        (
+            format!("{nodes}1 2 2 0 1 1 2 3\n2 2 2 0 1 1 3 4\n{close}"),
+            "the section $Elements goes on after the number of entries that it states",
+        ),
         (format!("{nodes}1 3 2 0 1 1 2 3 4\n{close}"), "quadrilaterals, which motile does not compute"),
         (format!("{nodes}1 4 2 0 1 1 2 3 4\n{close}"), "three-dimensional, but motile computes solids in the plane"),
         (format!("{nodes}1 21 2 0 1 1 2 3 4\n{close}"), "of an order above 2"),

@@ -102,6 +102,24 @@ fn groups_are_stiffer_and_lines_are_pinned() {
     }
 }
 
+/// A member that is named twice counts once, and groups of one name are one group.
+#[test]
+fn members_of_groups_count_once() {
+    let factors = vec![GroupFactor { group: "right".into(), factor: 4.0 }];
+    let plain = MeshSetup { factors, place: [0.0; 2], ..block() };
+    let [right] = plain.groups.as_slice() else { panic!("one group") };
+    let half = |members: &[usize]| MeshGroup { name: "right".into(), members: members.to_vec() };
+    let twice = half(&[&right.members[..], &right.members].concat());
+    let (first, second) = right.members.split_at(3);
+    for groups in [vec![twice], vec![half(first), half(second)]] {
+        let parts = MeshSetup { groups: groups.clone(), ..plain.clone() }.parts().unwrap();
+        for k in 0..50 {
+            let place = Vec2::new(2.0 * (f64::from(k) * 0.618).fract(), (f64::from(k) * 0.414).fract());
+            assert_eq!(parts.factor(place), if place.x < 1.0 { 1.0 } else { 4.0 }, "{groups:?} {place:?}");
+        }
+    }
+}
+
 #[test]
 fn places_of_groups() {
     let factors = vec![GroupFactor { group: "right".into(), factor: 4.0 }];

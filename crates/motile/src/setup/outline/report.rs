@@ -1,7 +1,7 @@
 //! Reports of what became of outlines.
 
-use motile_base::Vec2;
-use outline_files::Outline;
+use motile_base::{PeriodicSeries, Vec2, internal::told, polygon};
+use outline_files::{Outline, OutlineError};
 
 use super::{OutlineOrigin, OutlineSetup};
 use crate::SetupError;
@@ -34,8 +34,41 @@ pub struct OutlineReport {
     pub polygon_perimeter: f64,
     /// Perimeter of the shape (length).
     pub perimeter: f64,
+    /// Perimeter of what the nodes of the method carry of the shape of a body (length); on a grid, and of walls and
+    /// solids, of the shape itself.
+    pub resolved_perimeter: f64,
     /// Centroid of the polygon (length), for a body with a centre relative to it.
     pub centroid: [f64; 2],
+}
+
+/// Difference of areas or perimeters over the value above which there is a remark.
+const REMARKABLE: f64 = 0.02;
+
+impl OutlineReport {
+    /// Returns what a user should know of the shape: an area that is not that of the polygon, and steps that the nodes do
+    /// not carry.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let Self { key, points, area, polygon_area, perimeter, resolved_perimeter, .. } = self;
+        let mut remarks = Vec::new();
+        let off = area / polygon_area - 1.0;
+        if off.abs() > REMARKABLE && area.is_finite() {
+            let (percent, more) = (100.0 * off.abs(), if off > 0.0 { "larger" } else { "smaller" });
+            remarks.push(format!(
+                "{key}: the area of the smooth curve through its {points} points is {percent:.1} % {more} than the area \
+                 of their polygon. Give more points, or set `rounding` if the sides are straight"
+            ));
+        }
+        if *resolved_perimeter < (1.0 - REMARKABLE) * perimeter {
+            remarks.push(format!(
+                "{key}: the perimeter of the shape is {}, and the nodes carry {} of it. If the outline follows the steps \
+                 of pixels, set `smooth` to the length of one or two pixels. Otherwise use more nodes",
+                told(*perimeter),
+                told(*resolved_perimeter)
+            ));
+        }
+        remarks
+    }
 }
 
 impl Setup {
@@ -49,7 +82,8 @@ impl Setup {
         for (key, shape) in self.shapes() {
             if let DropletShape::Outline(outline) = shape {
                 let key = format!("{key}.outline");
-                reports.push(outline.report(&key, OutlineOrigin::Centroid).map_err(|error| error.of(&key))?);
+                let nodes = self.method.nodes();
+                reports.push(outline.report(&key, OutlineOrigin::Centroid, nodes).map_err(|error| error.of(&key))?);
             }
         }
         let [period, _] = self.region.lengths();
@@ -66,7 +100,7 @@ impl Setup {
             reports.extend(match outline {
                 SolidOutline::Closed(given) => {
                     let key = key("closed");
-                    Some(given.report(&key, OutlineOrigin::File).map_err(|error| error.of(&key))?)
+                    Some(given.report(&key, OutlineOrigin::File, None).map_err(|error| error.of(&key))?)
                 }
                 SolidOutline::WallBelowLine(given) => Some(line(key("wall-below-line"), given)?),
                 SolidOutline::WallAboveLine(given) => Some(line(key("wall-above-line"), given)?),
@@ -89,13 +123,20 @@ impl Setup {
 }
 
 impl OutlineSetup {
-    /// Returns the report of a closed outline.
-    fn report(&self, key: &str, usual: OutlineOrigin) -> Result<OutlineReport, SetupError> {
+    /// Returns the report of a closed outline, of which so many nodes carry a part.
+    fn report(&self, key: &str, usual: OutlineOrigin, nodes: Option<usize>) -> Result<OutlineReport, SetupError> {
         let prepared = self.prepared(None, usual)?;
         let curve = self.curve_through(&prepared.points)?;
-        let samples: Vec<Vec2> = (0..SAMPLES).map(|k| curve.point(k as f64 / SAMPLES as f64)).collect();
+        let mut samples: Vec<Vec2> = (0..SAMPLES).map(|k| curve.point(k as f64 / SAMPLES as f64)).collect();
         let report = report(key, &prepared.given, &samples, None);
-        Ok(OutlineReport { area: curve.area(), perimeter: curve.perimeter(), ..report })
+        let perimeter = curve.perimeter();
+        let mut resolved_perimeter = perimeter;
+        if let Some(nodes) = nodes {
+            let mut series = PeriodicSeries::new(SAMPLES).map_err(OutlineError::from)?;
+            series.truncate_vectors(&mut samples, nodes).map_err(OutlineError::from)?;
+            resolved_perimeter = polygon::edges(&samples).map(|(a, b)| a.distance(b)).sum();
+        }
+        Ok(OutlineReport { area: curve.area(), perimeter, resolved_perimeter, ..report })
     }
 }
 
@@ -126,6 +167,7 @@ fn report(key: &str, given: &Outline, shape: &[Vec2], period: Option<f64>) -> Ou
         area,
         polygon_perimeter: given.perimeter,
         perimeter,
+        resolved_perimeter: perimeter,
         centroid: given.centroid.into(),
     }
 }
