@@ -180,6 +180,23 @@ fn a_gel() {
     }
 }
 
+/// Between walls, the flow of another viscosity starts from the solution before, which a checkpoint has to hold.
+#[test]
+fn droplets_without_symmetry_between_walls() {
+    for (region, step, stops) in [
+        ("region.slit = { lower = -2.0, upper = 2.0 }", StepSize::Fixed(0.02), &[5, 8][..]),
+        ("region.tube = { radius = 2.5 }", ADAPTIVE, &[2]),
+    ] {
+        let text = format!(
+            "{region}\nviscosity = 10.0\nmethod.harmonics.degree = 4\nintegrator = \"runge-kutta-chebyshev\"\n\
+             [[droplets]]\nviscosity = 50.0\nposition = [0.0, 0.4, 0.1]\nheading = [1.0, 0.5, 0.2]\n\
+             particles = {{ activity = -1.0, excluded-volume.step = 2.0 }}\n"
+        );
+        let setup = Setup::from_toml(&text).expect("a scene");
+        compare(|| scene(&setup), 0.4, step, stops);
+    }
+}
+
 #[test]
 fn particles_inside() {
     let mut setup = coarse();
