@@ -18,6 +18,8 @@ from ._scene import _numbers
 OBSERVABLES = ("speed", "stresslet", "aspect_ratio", "concentration_max", "concentration_min", "perimeter")
 
 _STEP = 1e-6
+# Step of second derivatives, and steps of Gauss and Newton before these are used.
+_WIDE_STEP, _GAUSS_NEWTON = 1e-3, 4
 
 
 @dataclass(frozen=True)
@@ -109,9 +111,15 @@ class MeasuredOutline:
 
     def __post_init__(self) -> None:
         points = _numbers(self.points, "points")
-        if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3 or not np.all(np.isfinite(points)):
+        if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3:
             remedy = "Give an array of shape (n, 2) of at least three points"
             raise Error(f"points of an outline have shape {points.shape}. {remedy}", key="points", remedy=remedy)
+        bad = np.flatnonzero(~np.all(np.isfinite(points), axis=1))
+        if len(bad):
+            remedy = "Leave out points that were not measured"
+            named = f"row {bad[0]} of the points of an outline (counted from 0) is {points[bad[0]].tolist()}"
+            more = f", and {len(bad) - 1} more rows have no finite numbers either" if len(bad) > 1 else ""
+            raise Error(f"{named}{more}. {remedy}", key="points", value=str(points[bad[0]].tolist()), remedy=remedy)
         places = (points[:, 0] + 1j * points[:, 1]) * np.exp(-1j * self.direction)
         object.__setattr__(self, "_places", places - places.mean())
         object.__setattr__(self, "_errors", errors_of(self.error, (len(points),), "the outline"))
@@ -126,11 +134,27 @@ class MeasuredOutline:
         """Start values of the position of the centroid over the mean radius."""
         return np.zeros(2)
 
+    def compared(self, seen: Seen) -> tuple[float, float, float]:
+        """Mean distance of the points from the centroid over the computed distance in the same directions, the angle
+        that the points cover around it (radians), and the mean square of the residuals."""
+        assert seen.curve is not None
+        extra, residuals, _ = eliminated(lambda extra: self.residuals(seen, extra), self.start)
+        around = self._around(extra)
+        angles = np.sort(np.angle(around))
+        gap = np.max(np.diff(angles, append=angles[0] + 2 * np.pi))
+        ratio = np.mean(np.abs(around)) / np.mean(seen.curve.radii(angles))
+        return float(ratio), float(2 * np.pi - gap), float(np.mean(residuals**2))
+
+    def _around(self, extra: Array) -> npt.NDArray[np.complex128]:
+        # Shifts in units of the size, so that they are small numbers.
+        around: npt.NDArray[np.complex128]
+        around = self._places - np.mean(np.abs(self._places)) * complex(extra[0], extra[1])
+        return around
+
     def residuals(self, seen: Seen, extra: Array) -> Array:
         """Distances of the points beyond the computed outline, in error bars."""
         assert seen.curve is not None
-        # Shifts in units of the size, so that they are small numbers.
-        around = self._places - np.mean(np.abs(self._places)) * complex(extra[0], extra[1])
+        around = self._around(extra)
         residuals: Array = (np.abs(around) - seen.curve.radii(np.angle(around))) / self._errors
         return residuals
 
@@ -278,7 +302,7 @@ def eliminated(residuals: Callable[[Array], Array], start: Array) -> tuple[Array
     extra, count = start.copy(), len(start)
     best = residuals(extra)
     slopes = np.empty((len(best), count))
-    for _ in range(30):
+    for iteration in range(30):
         for k in range(count):
             step = np.zeros(count)
             step[k] = _STEP
@@ -286,8 +310,38 @@ def eliminated(residuals: Callable[[Array], Array], start: Array) -> tuple[Array
         if not count:
             break
         change = np.linalg.lstsq(slopes, -best, rcond=None)[0]
-        extra = np.asarray(extra + change, dtype=np.float64)
-        best = residuals(extra)
+        if iteration >= _GAUSS_NEWTON:
+            # With large residuals, Gauss-Newton steps are too long or too short.
+            whole = slopes.T @ slopes + _curvature(residuals, best, extra)
+            if np.all(np.linalg.eigvalsh(whole) > 0):
+                change = np.linalg.solve(whole, -slopes.T @ best)
+        moved = residuals(extra + change)
+        while moved @ moved > best @ best * (1 + 1e-12) and np.max(np.abs(change)) > 1e-10:
+            change = 0.5 * change
+            moved = residuals(extra + change)
+        extra, best = np.asarray(extra + change, dtype=np.float64), moved
         if np.max(np.abs(change), initial=0.0) < 1e-10:
             break
     return extra, best, slopes
+
+
+def _curvature(residuals: Callable[[Array], Array], best: Array, extra: Array) -> Array:
+    """Sum of the residuals times their second derivatives."""
+    steps = _WIDE_STEP * np.eye(len(extra))
+    at = {
+        (k, m): float(best @ (residuals(extra + a + b) + residuals(extra - a - b)))
+        for k, a in enumerate(steps)
+        for m, b in enumerate(steps)
+        if k <= m
+    }
+    single = [float(best @ (residuals(extra + a) + residuals(extra - a))) for a in steps]
+    centre = 2.0 * float(best @ best)
+    return np.array(
+        [
+            [
+                (at[min(k, m), max(k, m)] - single[k] - single[m] + centre) / (2 * _WIDE_STEP**2)
+                for m in range(len(extra))
+            ]
+            for k in range(len(extra))
+        ]
+    )
