@@ -1,7 +1,9 @@
 """Fits to measurements."""
 
+import dataclasses
 import os
 import pickle
+import re
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -9,10 +11,13 @@ from typing import Any
 import motile
 import numpy as np
 import pytest
+from motile import _fit
 from motile._chi2 import chi2_below, chi2_quantile
 from motile._curve import Curve
+from motile._fit import _other_size
 from motile._fit_model import COVERED, Free, Measurement, Model
-from motile._least_squares import least_squares
+from motile._least_squares import Minimum, least_squares
+from motile._measured import Seen, eliminated
 
 DROPLET, PARTICLES = "droplets.0.", "droplets.0.particles."
 ACTIVITY, DIFFUSION, STRENGTH = PARTICLES + "activity", PARTICLES + "diffusion", PARTICLES + "excluded_volume.step"
@@ -57,6 +62,35 @@ def test_least_squares_within_bounds() -> None:
         start, low, high = np.array([-1.2, 1.0]), np.array([-2.0, -2.0]), np.array([upper, 2.0])
         found = least_squares(residuals, jacobian, start, low, high, high - low)
         assert found.converged and found.values == pytest.approx(expected, abs=1e-9)
+
+
+def test_least_squares_that_stall_have_not_converged() -> None:
+    # With a derivative of the wrong sign no step lowers the sum, so that damping makes steps as small as round-off.
+    def residuals(x: Any) -> Any:
+        return np.array([x[0] - 1.0, 100.0])
+
+    low, high = np.array([-2.0]), np.array([2.0])
+    for sign in (1.0, -1.0):
+        jacobian = np.array([[sign], [0.0]])
+        found = least_squares(residuals, lambda _, slopes=jacobian: slopes, np.zeros(1), low, high, high - low)
+        assert found.converged == (sign > 0) and found.values == pytest.approx([max(sign, 0.0)], abs=1e-6)
+
+
+def test_the_best_place_of_an_outline_that_does_not_fit() -> None:
+    # Residuals are not normal to the shifts unless the position is the best one.
+    a = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    seen = Seen({}, Curve(np.column_stack([1.2 * np.cos(a), np.sin(a)]), 0 * a))
+    angles = np.sort(np.random.default_rng(1).uniform(0, 2 * np.pi, 40))
+    for size, said in ((10.0, "9.9.* times as large"), (0.72, "1.* times smaller"), (0.1, "much smaller")):
+        points = size * np.column_stack([1.2 * np.cos(angles), np.sin(angles)]) + [5.0, 3.0]
+        outline = motile.MeasuredOutline(points, 0.01)
+        _, best, slopes = eliminated(lambda extra, of=outline: of.residuals(seen, extra), outline.start)
+        assert np.max(np.abs(slopes.T @ best)) < 1e-6 * (best @ best)
+        assert re.search(said, _other_size(outline, seen, "")[0])
+    # Another size by 20 %, and a part of an outline that fits, may be real.
+    some = np.column_stack([1.2 * np.cos(angles[:12]), np.sin(angles[:12])])
+    assert not _other_size(motile.MeasuredOutline(1.2 * points / size, 0.01), seen, "")
+    assert not _other_size(motile.MeasuredOutline(some, 0.01), seen, "")
 
 
 def test_a_curve_between_its_nodes() -> None:
@@ -296,6 +330,104 @@ def test_samples() -> None:
     assert few[0] == pytest.approx(few[1], rel=1e-6)
 
 
+SPEEDS = [
+    motile.Measured("speed", speed, 0.002, changes={"region.channel.width": width})
+    for width, speed in ((3, 0.1059), (4, 0.1189), (6, 0.1211))
+]
+
+
+def test_an_outline_in_another_unit() -> None:
+    # The search stayed at its start, because the position of such an outline was not the best one.
+    setup = swimmer(-0.7)
+    angles = np.sort(np.random.default_rng(6).uniform(0, 2 * np.pi, 40))
+    points, _ = shown(setup, angles)
+    data: list[Measurement] = [motile.MeasuredOutline(10 * points, 0.1), *measured(setup, ["speed"], 0.01)]
+    result = motile.fit(setup, {ACTIVITY: Free(-0.9, -0.6, start=-0.8)}, data)
+    assert result.values[ACTIVITY] == pytest.approx(-0.7, abs=0.05)
+    assert re.search(r"outline is (9\.9|10).* times as large .*scale=", repr(result)), result
+    for near in (-0.8, -0.75, -0.65):
+        assert result.chi2_at({ACTIVITY: near}) > result.chi2
+
+
+def test_a_search_that_stalls_goes_on_or_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    search, stalls = _fit._minimise, [1]
+
+    def stalling(model: Model, start: Any, lower: Any, upper: Any) -> Minimum:
+        stalls[0] -= 1
+        return Minimum(start, model.residuals(start), 1, True) if stalls[0] >= 0 else search(model, start, lower, upper)
+
+    monkeypatch.setattr(_fit, "_minimise", stalling)
+    keys, data = {ACTIVITY: Free(-0.9, -0.5, start=-0.75)}, measured(swimmer(), ["speed"], 0.02)
+    assert motile.fit(swimmer(), keys, data).values[ACTIVITY] == pytest.approx(-0.7, rel=1e-3)
+    stalls[0] = 9
+    result = motile.fit(swimmer(), keys, data)
+    assert any("not reached a minimum" in remark for remark in result.remarks)
+
+
+def test_identified_follows_the_errors() -> None:
+    # The interval of 95 % of the profile is the whole range of the excluded volume.
+    setup = swimmer(-1, 48, motile.channel(8, 3))
+    result = motile.fit(setup, {ACTIVITY: (-3, -0.6), STRENGTH: (5, 30)}, SPEEDS)
+    assert result.identified == {ACTIVITY: True, STRENGTH: False} and result.errors[STRENGTH] > 3
+    assert re.search("2 errors .* beyond the bounds 5 and 30; look at profile", result.reasons[STRENGTH])
+    assert result.reasons[STRENGTH] in repr(result)
+    # All of the conditions.
+    model, values = result._model, np.array([-1.5, 10.0])
+    minimum = Minimum(values, model.residuals(values), 1, True)
+    near = _fit._surroundings(model, minimum)
+    for lower, upper, error, growth, said in (
+        (5, 30, 1.0, 4.0, None),
+        (5, 30, 2.4, 4.0, None),
+        (5, 30, 2.6, 4.0, "beyond the bounds"),
+        (1, 30, 2.6, 4.0, "more than half of the value"),
+        (8, 12, 0.49, 4.0, None),
+        (8, 12, 0.51, 4.0, "more than half of the distance"),
+        (5, 30, 1.0, 1.0, "chi2 grows by only 1"),
+        (-30, 30, 2.6, 4.0, None),
+    ):
+        slopes = np.zeros_like(near.slopes)
+        slopes[0, 0], slopes[1, 1] = 1e3, 1 / error
+        model.lower[1], model.upper[1] = lower, upper
+        given = dataclasses.replace(near, slopes=slopes, growth={ACTIVITY: 4.0, STRENGTH: growth})
+        combinations = _fit._combinations(model, slopes * near.scale, near.scale)
+        reasons = _fit._reasons(model, values, given, combinations, {})
+        assert ACTIVITY not in reasons and (STRENGTH in reasons) == (said is not None), (lower, upper, error)
+        assert said is None or said in reasons[STRENGTH]
+
+
+def test_unstable_swimmers_are_named() -> None:
+    setup = swimmer(-0.6, 48, motile.channel(8, 3))
+    result = motile.fit(setup, {ACTIVITY: (-0.9, -0.5)}, measured(setup, ["speed"], 0.02))
+    assert any("the fitted swimmer is unstable" in remark for remark in result.remarks)
+    # More nodes decide.
+    coarse = motile.steady(swimmer(-4, 72, motile.channel(12, 5)))
+    assert coarse.is_stable() is None and _fit._growth_rate(coarse) == pytest.approx(0.00667, rel=1e-2)
+
+
+def test_data_that_no_values_reach() -> None:
+    for speed in (1.2, -0.1):
+        result = motile.fit(swimmer(), {ACTIVITY: (-0.9, -0.5)}, motile.Measured("speed", speed, 0.01))
+        assert result.degrees_of_freedom == 0 and result.at_bounds and not result.identified[ACTIVITY]
+        assert "bound" in result.reasons[ACTIVITY] and "profile" in result.reasons[ACTIVITY]
+        assert any("does not describe the data" in remark for remark in result.remarks)
+
+
+def test_a_single_measurement_and_progress(capsys: pytest.CaptureFixture[str]) -> None:
+    (one,) = measured(swimmer(), ["speed"], 0.02)
+    result = motile.fit(swimmer(), {ACTIVITY: (-0.9, -0.5)}, one)
+    assert result.values == motile.fit(swimmer(), {ACTIVITY: (-0.9, -0.5)}, [one]).values
+    result.profile(ACTIVITY)
+    assert not capsys.readouterr().err
+    result.profile(ACTIVITY, progress=True)
+    shown = [float(part) for part in re.findall(r"percent = ([\d.]+) of 100", capsys.readouterr().err)]
+    assert len(shown) > 1 and shown == sorted(shown) and shown[-1] == 100
+    with pytest.raises(
+        motile.Error, match=f"chi2 cannot be computed at {ACTIVITY} = -60: .* Use values closer"
+    ) as said:
+        result.chi2_at({ACTIVITY: -60})
+    assert said.value.key == ACTIVITY and said.value.value == "-60"
+
+
 def test_samples_need_emcee(monkeypatch: pytest.MonkeyPatch) -> None:
     setup = swimmer()
     result = motile.fit(setup, {ACTIVITY: (-0.9, -0.5)}, measured(setup, ["speed"], 0.02))
@@ -346,10 +478,21 @@ ELSEWHERE = motile.Measured("speed", 0.06, 0.01, changes={"region.channel.width"
         (lambda: motile.fit(swimmer(), {ACTIVITY: (-1, -0.5)}, []), "no measurements"),
         (lambda: motile.fit(swimmer(), {ACTIVITY: (-1, -0.5)}, [ELSEWHERE]), "region.channel.width: "),
         (lambda: motile.fit(swimmer(), {}, SPEED), "no parameters"),
+        (lambda: motile.fit(swimmer(), [(-1, -0.5)], SPEED), "no dictionary"),  # type: ignore[arg-type]
+        (lambda: motile.fit(swimmer(), {ACTIVITY: (-1, -0.5)}, 0.06), "no list. Give a list"),  # type: ignore[arg-type]
+        (lambda: motile.fit(swimmer(), {ACTIVITY: (1, 3)}, SPEED), "swims only if its activity is negative"),
+        (
+            lambda: motile.fit(swimmer(shape={"round": {"radius": 5e-6}}), {ACTIVITY: Free(-3e-12, -1e-12)}, SPEED),
+            "same units: its radius is 5e-06",
+        ),
         (lambda: motile.Measured("sped", 0.1, 0.01), "Did you mean speed"),
         (lambda: motile.Measured("speed", 0.1, 0), "error bar of 0"),
         (lambda: motile.Measured("speed", float("nan"), 1), "no numbers to compare"),
         (lambda: motile.MeasuredOutline([[0, 1], [1, 2]], 0.1), "at least three points"),
+        (
+            lambda: motile.MeasuredOutline([[0, 1], [1, 2], [1, float("nan")], [2, 2]], 0.1),
+            r"row 2 .* is \[1.0, nan\]. Leave out",
+        ),
         (lambda: motile.MeasuredModes({1: 0.1}, 0.1), "modes 2 to 64"),
         (lambda: motile.MeasuredConcentration([0, 1], [1], 0.1), "one concentration for each angle"),
         (lambda: motile.MeasuredRun([1, 1], [1, 2], 0.1), "above 0 and grow"),

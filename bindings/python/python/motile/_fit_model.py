@@ -84,7 +84,7 @@ class Free:
 
 
 @dataclass
-class _Group:
+class Group:
     """Measurements of one steady state."""
 
     changes: dict[str, Any]
@@ -97,11 +97,11 @@ class Model:
     def __init__(self, setup: Setup, free: dict[str, Free], data: Sequence[Measurement]) -> None:
         self.setup, self.free, self.keys = setup, free, tuple(free)
         self.runs = [item for item in data if isinstance(item, MeasuredRun)]
-        groups: dict[str, _Group] = {}
+        groups: dict[str, Group] = {}
         for item in data:
             if not isinstance(item, MeasuredRun):
                 changes = {key.replace("-", "_"): value for key, value in item.changes.items()}
-                group = groups.setdefault(json.dumps(changes, sort_keys=True, default=repr), _Group(changes, []))
+                group = groups.setdefault(json.dumps(changes, sort_keys=True, default=repr), Group(changes, []))
                 group.items.append(item)
         self.groups = list(groups.values())
         self.lower = np.array([float(entry.lower) for entry in free.values()])
@@ -128,12 +128,12 @@ class Model:
         """Setup of values of the parameters under the conditions of a measurement."""
         return self.setup.replace({**dict(zip(self.keys, values.tolist())), **changes})
 
-    def states(self, values: Array) -> list[_motile.SteadyState]:
+    def states(self, values: Array, halvings: int = _HALVINGS) -> list[_motile.SteadyState]:
         """Steady states of all conditions.
 
         They are searched from the same states each time, so that they depend on nothing but the values.
         """
-        return self._search(values, _HALVINGS)
+        return self._search(values, halvings)
 
     def _search(self, values: Array, halvings: int) -> list[_motile.SteadyState]:
         """States of values, by way of values between these and the nearest known ones if that is too far."""
@@ -145,11 +145,13 @@ class Model:
         place, nearest = known[int(np.argmin(far))] if known else (values, [])
         setups = [self.at(values, group.changes) for group in self.groups]
         starts = [[states[k] for states in (self._first, nearest) if states] for k in range(len(setups))]
+        found: list[_motile.SteadyState] = []
         try:
             found = [_near(setup, *states) for setup, states in zip(setups, starts)]
         except Error:
             if not halvings or not nearest:
                 raise
+        if setups and not found:
             self._search(0.5 * (place + values), halvings - 1)
             return self._search(values, halvings - 1)
         self._known[name] = (values.copy(), found)
@@ -166,12 +168,12 @@ class Model:
         after = self.tried(values)
         return after is not None and bool(np.any(np.abs(after - before) > _SAME))
 
-    def residuals(self, values: Array) -> Array:
+    def residuals(self, values: Array, halvings: int = _HALVINGS) -> Array:
         """Residuals of data, then of priors."""
         parts = [
             eliminated(lambda extra: item.residuals(seen, extra), item.start)[1]
-            for group, state in zip(self.groups, self.states(values))
-            for seen in [_seen(state, group)]
+            for group, state in zip(self.groups, self.states(values, halvings))
+            for seen in [seen_of(state, group)]
             for item in group.items
         ]
         parts += [run.residuals(self.at(values, run.changes)) for run in self.runs]
@@ -180,6 +182,13 @@ class Model:
         if not np.all(np.isfinite(found)):
             raise Error("a measured number has no value at these parameters. Use narrower bounds")
         return found
+
+    def near(self, values: Array) -> Array | None:
+        """Residuals close to known ones, or None where there is no steady state that is found at once."""
+        try:
+            return self.residuals(values, 0)
+        except Error:
+            return None
 
     def tried(self, values: Array) -> Array | None:
         """Residuals, or None where there is no steady state or no run."""
@@ -210,16 +219,16 @@ class Model:
             rows[row, k] = 1.0 / entry[1]
         return np.concatenate([*parts, rows])
 
-    def _of_group(self, values: Array, group: _Group, state: _motile.SteadyState) -> list[Array]:
+    def _of_group(self, values: Array, group: Group, state: _motile.SteadyState) -> list[Array]:
         """Derivatives of the residuals of each measurement of a condition."""
-        seen = _seen(state, group)
+        seen = seen_of(state, group)
         found = [eliminated(lambda extra: item.residuals(seen, extra), item.start) for item in group.items]
 
         def residuals(other: Seen) -> Array:
             return np.concatenate([item.residuals(other, extra) for item, (extra, _, _) in zip(group.items, found)])
 
         def anew(at: Array) -> Array:
-            return residuals(_seen(_near(self.at(at, group.changes), state), group))
+            return residuals(seen_of(_near(self.at(at, group.changes), state), group))
 
         slopes, columns = self._slopes(values, group, state), []
         for k, key in enumerate(self.keys):
@@ -244,7 +253,7 @@ class Model:
         scale: Array = np.minimum(np.where(values != 0, np.abs(values), np.inf), self.upper - self.lower)
         return scale
 
-    def _slopes(self, values: Array, group: _Group, state: _motile.SteadyState) -> list[Callable[[float], Seen] | None]:
+    def _slopes(self, values: Array, group: Group, state: _motile.SteadyState) -> list[Callable[[float], Seen] | None]:
         """For each parameter, what is seen after a small change of it, to first order; None without sensitivities."""
         own = own_viscosity(state.setup)
         names = [_names(key, own) for key in self.keys]
@@ -340,11 +349,11 @@ def _names(key: str, own: bool) -> tuple[str, ...]:
     return (COVERED[key],) if key in COVERED else ()
 
 
-def needs_curve(group: _Group) -> bool:
+def needs_curve(group: Group) -> bool:
     return any(not isinstance(item, Measured) for item in group.items)
 
 
-def _seen(state: _motile.SteadyState, group: _Group) -> Seen:
+def seen_of(state: _motile.SteadyState, group: Group) -> Seen:
     return Seen(state.measured, _curve(state, state.positions, state.concentration) if needs_curve(group) else None)
 
 
