@@ -108,6 +108,7 @@ impl Setup {
             dict.set_item("perimeter", report.perimeter)?;
             dict.set_item("resolved_perimeter", report.resolved_perimeter)?;
             dict.set_item("centroid", report.centroid)?;
+            dict.set_item("covered", report.covered)?;
             Ok(dict)
         };
         reports.into_iter().map(entry).collect()

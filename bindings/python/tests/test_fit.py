@@ -296,6 +296,22 @@ def test_a_parameter_that_nothing_depends_on() -> None:
     assert result.reasons["least_gap"] == "no measurement depends on it" and result.errors[ACTIVITY] < 0.1
 
 
+def test_a_change_of_a_whole_entry_replaces_what_is_varied_in_it() -> None:
+    width = "region.channel.width"
+    setup = swimmer(region=motile.channel(8, 4))
+    data = [
+        motile.Measured("speed", 0.05, 0.01, changes={"region": motile.channel(8, one)}) for one in (3.5, 5.0)
+    ]
+    result = motile.fit(setup, {width: (3.5, 5.0)}, data)
+    assert not result.identified[width] and result.reasons[width] == "no measurement depends on it"
+    # With a measurement that depends on it, the others do not.
+    data.append(motile.Measured("speed", 0.05, 0.01))
+    model = motile.fit(setup, {width: (3.5, 5.0)}, data)._model
+    jacobian = model.jacobian(np.array([4.0]))
+    assert not jacobian[:2].any() and abs(jacobian[2, 0]) > 1e-3, jacobian
+    assert motile.MeasuredModes({np.int64(2): 0.01}, 0.01).count == 1
+
+
 def test_profile_bounds_and_samples() -> None:
     setup = swimmer()
     data = measured(setup, ["speed"], 0.02)
@@ -494,6 +510,8 @@ ELSEWHERE = motile.Measured("speed", 0.06, 0.01, changes={"region.channel.width"
             r"row 2 .* is \[1.0, nan\]. Leave out",
         ),
         (lambda: motile.MeasuredModes({1: 0.1}, 0.1), "modes 2 to 64"),
+        (lambda: motile.Measured("speed", [0.1, 0.2], 0.1), "a Measured for each"),  # type: ignore[arg-type]
+        (lambda: motile.MeasuredConcentration([0, 1, 2], [-1, -2, -1], 0.1), "Subtract a smaller background"),
         (lambda: motile.MeasuredConcentration([0, 1], [1], 0.1), "one concentration for each angle"),
         (lambda: motile.MeasuredRun([1, 1], [1, 2], 0.1), "above 0 and grow"),
         (lambda: motile.MeasuredRun([1, 2], [1, 2], [0.1] * 3), "3 error bars for 2 values"),

@@ -15,8 +15,8 @@ const MOST: f64 = 1e50;
 /// Distance below which points coincide, over the extent of the outline: round-off.
 const SAME: f64 = 1e-12;
 
-/// Least part of a period that the points of a line cover: two points at equal distances cover a half.
-const LEAST_COVERED: f64 = 0.499;
+/// Least part of a period that the points of a line cover.
+const LEAST_COVERED: f64 = 0.01;
 
 const IN_ORDER: &str = "Give the points in order around the shape. For an outline that was traced from a picture, set \
                         `smooth` to one or two pixels";
@@ -142,12 +142,11 @@ pub(crate) fn along(points: &[Vec2], period: f64) -> Result<Outline, OutlineErro
             remedy: "Set `scale` so that one period of the line fits, or cut the line to one period",
         });
     }
-    // Half of a period or less is a line whose unit is wrong.
     let far = Vec2::splat(f64::INFINITY);
     let [low, high] = kept.iter().fold([far, -far], |[low, high], p| [low.min(*p), high.max(*p)]);
     if high.x - low.x < LEAST_COVERED * period {
         return Err(OutlineError::Kind {
-            what: "the line covers less than half of the length of the region",
+            what: "the line stands upright: it covers hardly any of the length of the region",
             remedy: "Set `scale` so that it covers one period, or give points over the whole length",
         });
     }

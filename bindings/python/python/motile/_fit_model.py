@@ -233,7 +233,8 @@ class Model:
         slopes, columns = self._slopes(values, group, state), []
         for k, key in enumerate(self.keys):
             slope = slopes[k]
-            if key in group.changes:
+            # A change of an entry replaces all that is in it, also what is varied.
+            if any(key == changed or key.startswith(f"{changed}.") for changed in group.changes):
                 columns.append(np.zeros(sum(len(best) for _, best, _ in found)))
             elif slope:
                 by = _STEP_OF_SLOPES * float(self.scale(values)[k])

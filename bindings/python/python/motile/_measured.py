@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import numbers
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -75,6 +76,9 @@ class Measured:
             remedy = f"{hint}Use one of {', '.join(OBSERVABLES)}"
             message = f"{self.name} is not measured of steady states. {remedy}"
             raise Error(message, key="name", value=self.name, remedy=remedy)
+        if np.ndim(self.value) or np.ndim(self.error):
+            remedy = "Give one number, and a Measured for each further one"
+            raise Error(f"the measured {self.name} and its error are lists. {remedy}", key="value", remedy=remedy)
         _finite(self.value, "value", self.name)
         errors_of(self.error, (1,), f"the measured {self.name}")
 
@@ -174,7 +178,7 @@ class MeasuredModes:
 
     def __post_init__(self) -> None:
         for mode, value in self.modes.items():
-            if not (isinstance(mode, int) and 2 <= mode <= 64) or not np.isfinite(value):
+            if not (isinstance(mode, numbers.Integral) and 2 <= mode <= 64) or not np.isfinite(value):
                 remedy = "Give finite amplitudes of modes 2 to 64, such as {2: 0.03, 3: -0.01}"
                 raise Error(f"modes: {mode!r}: {value!r}. {remedy}", key="modes", value=repr(value), remedy=remedy)
         object.__setattr__(self, "_errors", errors_of(self.error, (len(self.modes),), "the outline's modes"))
@@ -219,6 +223,9 @@ class MeasuredConcentration:
         if len(angles) != len(values):
             remedy = "Give one concentration for each angle"
             raise Error(f"there are {len(angles)} angles and {len(values)} concentrations. {remedy}", key="values")
+        if np.mean(values) <= 0 and not self.absolute:
+            remedy = "Subtract a smaller background, so that particles are bright"
+            raise Error(f"the mean of the concentrations is {np.mean(values):g}. {remedy}", key="values", remedy=remedy)
         errors = errors_of(self.error, values.shape, "the concentration")
         object.__setattr__(self, "_data", (angles, values, errors))
 
@@ -239,7 +246,7 @@ class MeasuredConcentration:
         computed = seen.curve.concentrations(angles)
         if len(extra):
             # The unit is that of the measured mean, so that the factor is about 1.
-            computed = extra[0] * computed * (np.mean(np.abs(values)) or 1.0)
+            computed = extra[0] * computed * np.mean(values)
         residuals: Array = (values - computed) / errors
         return residuals
 

@@ -39,8 +39,13 @@ pub struct OutlineReport {
     pub resolved_perimeter: f64,
     /// Centroid of the polygon (length), for a body with a centre relative to it.
     pub centroid: [f64; 2],
+    /// Part of the period that the points of a line cover, before the line goes straight to the image of its first point;
+    /// 1 for a closed outline.
+    pub covered: f64,
 }
 
+/// Part of a period that two points at equal distances cover.
+const COVERED: f64 = 0.5;
 /// Difference of areas or perimeters over the value above which there is a remark.
 const REMARKABLE: f64 = 0.02;
 
@@ -49,10 +54,17 @@ impl OutlineReport {
     /// not carry.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        let Self { key, points, area, polygon_area, perimeter, resolved_perimeter, .. } = self;
+        let Self { key, points, area, polygon_area, perimeter, resolved_perimeter, covered, .. } = self;
         let mut remarks = Vec::new();
+        if *covered < COVERED {
+            remarks.push(format!(
+                "{key}: the points of the line cover only {:.0} % of the length of the region, and a straight piece the \
+                 rest. Set `scale` so that one period of the line fits, if you meant that",
+                100.0 * covered
+            ));
+        }
         let off = area / polygon_area - 1.0;
-        if off.abs() > REMARKABLE && area.is_finite() {
+        if off.abs() > REMARKABLE && *covered == 1.0 {
             let (percent, more) = (100.0 * off.abs(), if off > 0.0 { "larger" } else { "smaller" });
             remarks.push(format!(
                 "{key}: the area of the smooth curve through its {points} points is {percent:.1} % {more} than the area \
@@ -169,7 +181,14 @@ fn report(key: &str, given: &Outline, shape: &[Vec2], period: Option<f64>) -> Ou
         perimeter,
         resolved_perimeter: perimeter,
         centroid: given.centroid.into(),
+        covered: period.map_or(1.0, |period| covered(&given.points) / period),
     }
+}
+
+/// Returns the extent of points along x (length).
+fn covered(points: &[Vec2]) -> f64 {
+    let [low, high] = points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.x), b.max(p.x)]);
+    high - low
 }
 
 /// Returns the largest distance of every `stride`-th point from the line through others, and its images.

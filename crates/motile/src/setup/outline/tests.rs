@@ -162,6 +162,20 @@ fn the_centroid_of_the_shape_is_the_centre() {
     }
 }
 
+#[test]
+fn lines_over_half_of_a_channel_are_told() {
+    let of = |scale: f64| {
+        let points = (0..16).map(|k| [0.25 * f64::from(k) - 2.0, 0.3 * (0.8 * f64::from(k)).sin() - 1.5]).collect();
+        let outline = SolidOutline::WallBelowLine(OutlineSetup { scale, ..OutlineSetup::of_points(points) });
+        let walls = vec![WallSetup::new(outline, 0.2)];
+        let region = Region::Channel { length: 8.0, width: 6.0, drive: Drive::ZeroGradient };
+        Setup { region, walls, ..droplet(OutlineSetup::of_points(ellipse(60, 1.0))) }.hints()
+    };
+    let hints = of(1.0);
+    assert!(hints.len() == 1 && hints[0].contains("cover only 47 % of the length of the region"), "{hints:?}");
+    assert!(of(2.0).is_empty(), "{:?}", of(2.0));
+}
+
 /// What a user sees only in the report is told: a curve that bulges, and steps of pixels that the nodes do not carry.
 #[test]
 fn shapes_that_differ_from_their_outline_are_told() {
