@@ -37,8 +37,8 @@ fn pair([small, large, gap]: [f64; 3], force: [f64; 2], nodes: usize) -> Setup {
 }
 
 /// Two discs come closer within 1 % of their speed, wherever there is no warning. With the default nodes a disc of
-/// radius 0.1 at 0.03 from a disc of radius 1 is 6 % off, which is warned of. The speeds (length per time) were computed
-/// with three to five times the nodes that resolve a gap, and one is computed again.
+/// radius 0.1 at 0.03 from a disc of radius 1 is 6 % off, which is warned of. The speeds (length per time) were
+/// computed with three to five times the nodes that resolve a gap, and one is computed again.
 #[test]
 fn pairs_of_discs_that_nodes_do_not_resolve_are_told() {
     let approach = |velocities: &[Vec2]| velocities[0].x - velocities[1].x;

@@ -47,8 +47,8 @@ pub struct Sensitivities {
     pub slowest: f64,
     /// The slowest rate in units of D/R^2. Below 0.05, the state is near a fold or a branch point.
     pub slowest_relative: f64,
-    /// Remark, if the state is near a fold or a branch point, or derivatives break the law of the unit of length by more
-    /// than 1 %. Nodes stay where they are if a length changes, so the law holds up to the errors of nodes.
+    /// Remark, if the state is near a fold or a branch point, or derivatives break the law of the unit of length by
+    /// more than 1 %. Nodes stay where they are if a length changes, so the law holds up to the errors of nodes.
     pub warning: Option<String>,
 }
 
@@ -271,8 +271,8 @@ impl SteadyState {
         Ok(Sensitivities { observables, parameters, slowest, slowest_relative: slowest / unit, warning })
     }
 
-    /// Returns a remark if a change of the unit of length changes an observable by another power than its own. The sum of
-    /// power times relative derivative over all parameters is this power.
+    /// Returns a remark if a change of the unit of length changes an observable by another power than its own. The sum
+    /// of power times relative derivative over all parameters is this power.
     fn remark_on_lengths(
         &self,
         wanted: &[Parameter],
@@ -302,8 +302,8 @@ impl SteadyState {
         let listed: Vec<String> = off.map(|(name, defect)| format!("{name} by {:.1} %", 100.0 * defect)).collect();
         (!listed.is_empty()).then(|| {
             format!(
-                "The nodes do not resolve the derivatives by lengths. In sum, they miss what another unit of length would \
-                 change: {}. Use more nodes.",
+                "The nodes do not resolve the derivatives by lengths. In sum, they miss what another unit of length \
+                 would change: {}. Use more nodes.",
                 listed.join(", ")
             )
         })

@@ -205,8 +205,8 @@ impl System {
     }
 
     /// Returns the places in a part of the two largest waves of the shape, of a body of revolution with a cortex. They
-    /// move the point at a pole alone, where rings have no area. No ring feels this, so nothing pulls the point back, and
-    /// with a cortex above three times `eta R` it would move away.
+    /// move the point at a pole alone, where rings have no area. No ring feels this, so nothing pulls the point back,
+    /// and with a cortex above three times `eta R` it would move away.
     fn waves_at_poles(&self, part: Part) -> Vec<usize> {
         if !(self.model.is_axisymmetric() && self.model.has_cortex()) {
             return Vec::new();

@@ -69,7 +69,8 @@ struct Share {
 
 /// Part of the wall's flow at droplets that is left out.
 const TOLERANCE: f64 = 3e-10;
-/// Part of the root of the accuracy of a rough flow, which counts for waves that fade on the way back as well (measured).
+/// Part of the root of the accuracy of a rough flow, which counts for waves that fade on the way back as well
+/// (measured).
 const PART: f64 = 0.03;
 /// Distance, over the radius, within which points are as far from the wall as others.
 const SAME_RADIUS: f64 = 0.02;

@@ -11,8 +11,8 @@ const MOST_UNEVEN: f64 = 3.0;
 /// Largest distances of the curve from a side, over the shortest of the side and its two neighbours; later ones are
 /// tried if the curve crosses itself. That of a circle from its octagon is 0.1.
 const DISTANCES: [f64; 4] = [0.15, 0.05, 0.015, 0.005];
-/// Part of a limit from which on a side is parted: equal sides, as of a rectangle twice as long as wide, which reaches a
-/// limit, are then treated alike in spite of round-off.
+/// Part of a limit from which on a side is parted: equal sides, as of a rectangle twice as long as wide, which reaches
+/// a limit, are then treated alike in spite of round-off.
 const BELOW: f64 = 1.0 - 1e-9;
 /// Most halvings of sides; a side is then a millionth of a millionth of what it was.
 const HALVINGS: usize = 40;

@@ -17,8 +17,9 @@ use crate::concentration::{Flux, element_peclet};
 pub(crate) const PECLET_LIMIT: f64 = 0.35;
 
 /// Modes of a swimmer's shape, in the plane the number of nodes, below which its speed is off by more than 1 %. At
-/// activities of -2, -3 and -4, with 600 elements, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1, 0
-/// and -0.6 with 24. In three dimensions at -2, in a tube of 1.4 radii, it is off by 2.4 % with 16 modes, 0.6 % with 22.
+/// activities of -2, -3 and -4, with 600 elements, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1,
+/// 0 and -0.6 with 24. In three dimensions at -2, in a tube of 1.4 radii, it is off by 2.4 % with 16 modes and by 0.6 %
+/// with 22.
 const LEAST_MODES: usize = 24;
 /// Error of the speed of swimmers with the upwind flux, in %: 2.9 to 6.6 with 192 elements at activities of -2 to -4.
 const UPWIND_ERROR: f64 = 3.5;

@@ -46,7 +46,8 @@ impl Surfaces {
     /// };
     /// let domain = Domain { origin: [0.0; 2], periods: [Some(6.0), None].into(), walls: None };
     /// let view = FluidView {
-    ///     domain, viscosity: 1.0, spacing: Some(0.1), second_order: true, shape_modes: None, nodes: None, interface_stiffness: 1.0,
+    ///     domain, viscosity: 1.0, spacing: Some(0.1), second_order: true, shape_modes: None, nodes: None,
+    ///     interface_stiffness: 1.0,
     /// };
     /// assert_eq!(Surfaces::of([square(0.0), square(2.0)]).first_overlap(&view), None);
     /// // the image of the third overlaps the first

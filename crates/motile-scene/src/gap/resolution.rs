@@ -16,8 +16,8 @@ const RESOLVED: f64 = 0.55;
 /// radius 1.5, discs turn the wrong way at 1.75, and approach it twice as fast as they should at 2.
 const NONSENSE: f64 = 1.5;
 
-/// Error of the outline that nodes carry, over the width of a film at a straight wall, above which speeds are off by 1 %.
-/// Measured for ellipses of 0.8 x 0.2 along a wall at a gap of 0.02: they are 8.6 % off at 0.01, 1.3 % at 0.0032 and
+/// Error of the outline that nodes carry, over the width of a film at a straight wall, above which speeds are off
+/// by 1 %. Measured for ellipses of 0.8 x 0.2 along a wall at a gap of 0.02: 8.6 % off at 0.01, 1.3 % at 0.0032 and
 /// 0.05 % at 0.0008.
 const OUTLINE: f64 = 0.0025;
 
@@ -203,9 +203,9 @@ impl Surfaces {
             .filter(|gap| gap.excess() > 1.0)
     }
 
-    /// Returns the gap between a rigid body and straight walls at two heights (length) that so many nodes resolve worst,
-    /// if they do not. Every place of the body counts: the ends of a slender body are where nodes are too few first, and
-    /// what they leave of the outline is felt where the film is narrowest.
+    /// Returns the gap between a rigid body and straight walls at two heights (length) that so many nodes resolve
+    /// worst, if they do not. Every place of the body counts: the ends of a slender body are where nodes are too few
+    /// first, and what they leave of the outline is felt where the film is narrowest.
     pub(crate) fn coarse_straight(&self, nodes: usize, heights: [f64; 2]) -> Option<CoarseGap> {
         let mut worst: Option<CoarseGap> = None;
         for body in (0..self.boundaries.len()).filter(|&body| self.kinds[body] == MarkerKind::Rigid) {

@@ -73,8 +73,8 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Returns the force of the fluid along x (force) on the straight wall of a channel opposite to its only open rigid
-    /// wall. It is the integral of the shear stress over a period. Before it comes the number of the straight wall: 0 for
-    /// the lower one, 1 for the upper one. It is `None` if there is not exactly one open rigid wall.
+    /// wall. It is the integral of the shear stress over a period. Before it comes the number of the straight wall: 0
+    /// for the lower one, 1 for the upper one. It is `None` if there is not exactly one open rigid wall.
     ///
     /// # Errors
     /// Returns the errors of [`System::sample`].

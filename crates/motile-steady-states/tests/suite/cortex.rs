@@ -79,7 +79,8 @@ fn worst(setup: &Setup, symmetries: &[Symmetry], rates: &[Complex64]) -> f64 {
     all.fold(0.0, f64::max)
 }
 
-/// Largest distance of the leading growth rates of a state at rest to the nearest of the rates, which are all that lead.
+/// Largest distance of the leading growth rates of a state at rest to the nearest of the rates, which are all that
+/// lead.
 fn worst_leading(setup: &Setup, count: usize, rates: &[Complex64]) -> f64 {
     let spectrum = SteadyState::uniform(setup).expect("as described").spectrum().expect("as described");
     let nearest = |z: Complex64| rates.iter().map(|rate| (z - rate).norm()).fold(f64::INFINITY, f64::min);

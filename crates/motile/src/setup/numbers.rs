@@ -90,8 +90,8 @@ impl Setup {
         Ok(())
     }
 
-    /// Returns a sentence for each kind of value that is legal but rarely meant. An activity may be positive, so that the
-    /// droplet does not swim (of the first such droplet), and the shape of an outline may differ from its polygon
+    /// Returns a sentence for each kind of value that is legal but rarely meant. An activity may be positive, so that
+    /// the droplet does not swim (of the first such droplet), and the shape of an outline may differ from its polygon
     /// ([`OutlineReport::remarks`]).
     ///
     /// ```

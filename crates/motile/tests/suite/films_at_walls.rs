@@ -1,5 +1,5 @@
-//! Rigid bodies next to a straight wall: what their nodes do not resolve is warned of, and what is not warned of is right
-//! to a per cent.
+//! Rigid bodies next to a straight wall: what their nodes do not resolve is warned of, and what is not warned of is
+//! right to a per cent.
 
 use std::f64::consts::FRAC_PI_2;
 

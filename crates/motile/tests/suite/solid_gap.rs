@@ -116,8 +116,8 @@ fn the_number_of_nodes_that_a_film_needs_is_told() {
     assert!((36..42).contains(&needed) && of(needed + 1).is_none() && of(needed - 2).is_some(), "{told}");
 }
 
-/// In three dimensions a shape has fewer waves than nodes, and what is told is a number of nodes: more than there are, and
-/// enough.
+/// In three dimensions a shape has fewer waves than nodes, and what is told is a number of nodes: more than there are,
+/// and enough.
 #[test]
 fn the_number_of_nodes_is_told_in_three_dimensions_too() {
     let of = |region: Region, nodes: usize, cause: &str| {

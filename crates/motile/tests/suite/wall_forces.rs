@@ -166,8 +166,8 @@ fn friction_of_the_fluid_takes_part_in_the_balance() {
     assert!((0..2).all(|k| errors[1][k] < 0.4 * errors[0][k].max(1e-3)), "{errors:?}");
 }
 
-/// Forces on the only shaped side of a channel and on the straight wall opposite, and what the pressure drop carries, all
-/// along x.
+/// Forces on the only shaped side of a channel and on the straight wall opposite, and what the pressure drop carries,
+/// all along x.
 fn beside_one_side(setup: &Setup, gradient: f64) -> [f64; 3] {
     let mut scene = setup.build().expect("a scene").scene;
     let system = scene.system_mut();

@@ -119,8 +119,8 @@ fn points_that_no_curve_is_near_are_refused() {
     }
 }
 
-/// Sides of rectangles that reach a limit exactly are parted alike: the curve has the symmetry of its points, wherever they
-/// start.
+/// Sides of rectangles that reach a limit exactly are parted alike: the curve has the symmetry of its points, wherever
+/// they start.
 #[test]
 fn curves_through_rectangles_are_symmetric() {
     for aspect in [1.0, 1.5, 2.0, 3.0, 4.0, 6.0] {

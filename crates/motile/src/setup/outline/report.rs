@@ -39,8 +39,8 @@ pub struct OutlineReport {
     pub resolved_perimeter: f64,
     /// Centroid of the polygon (length), for a body with a centre relative to it.
     pub centroid: [f64; 2],
-    /// Part of the period that the points of a line cover, before the line goes straight to the image of its first point;
-    /// 1 for a closed outline.
+    /// Part of the period that the points of a line cover, before the line goes straight to the image of its first
+    /// point; 1 for a closed outline.
     pub covered: f64,
 }
 
@@ -50,16 +50,16 @@ const COVERED: f64 = 0.5;
 const REMARKABLE: f64 = 0.02;
 
 impl OutlineReport {
-    /// Returns what a user should know of the shape: an area that is not that of the polygon, and steps that the nodes do
-    /// not carry.
+    /// Returns what a user should know of the shape: an area that is not that of the polygon, and steps that the nodes
+    /// do not carry.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let Self { key, points, area, polygon_area, perimeter, resolved_perimeter, covered, .. } = self;
         let mut remarks = Vec::new();
         if *covered < COVERED {
             remarks.push(format!(
-                "{key}: the points of the line cover only {:.0} % of the length of the region, and a straight piece the \
-                 rest. Set `scale` so that one period of the line fits, if you meant that",
+                "{key}: the points of the line cover only {:.0} % of the length of the region, and a straight piece \
+                 the rest. Set `scale` so that one period of the line fits, if you meant that",
                 100.0 * covered
             ));
         }
@@ -67,14 +67,14 @@ impl OutlineReport {
         if off.abs() > REMARKABLE && *covered == 1.0 {
             let (percent, more) = (100.0 * off.abs(), if off > 0.0 { "larger" } else { "smaller" });
             remarks.push(format!(
-                "{key}: the area of the smooth curve through its {points} points is {percent:.1} % {more} than the area \
-                 of their polygon. Give more points, or set `rounding` if the sides are straight"
+                "{key}: the area of the smooth curve through its {points} points is {percent:.1} % {more} than the \
+                 area of their polygon. Give more points, or set `rounding` if the sides are straight"
             ));
         }
         if *resolved_perimeter < (1.0 - REMARKABLE) * perimeter {
             remarks.push(format!(
-                "{key}: the perimeter of the shape is {}, and the nodes carry {} of it. If the outline follows the steps \
-                 of pixels, set `smooth` to the length of one or two pixels. Otherwise use more nodes",
+                "{key}: the perimeter of the shape is {}, and the nodes carry {} of it. If the outline follows the \
+                 steps of pixels, set `smooth` to the length of one or two pixels. Otherwise use more nodes",
                 told(*perimeter),
                 told(*resolved_perimeter)
             ));
