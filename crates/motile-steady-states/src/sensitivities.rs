@@ -299,11 +299,11 @@ impl SteadyState {
             Some((*name, (terms.sum::<f64>() - f64::from(power)).abs())).filter(|_| *value != 0.0)
         };
         let off = observables.iter().enumerate().filter_map(defect).filter(|(_, defect)| *defect > MOST_DEFECT);
-        let listed: Vec<String> = off.map(|(name, defect)| format!("{name} by {:.1} %", 100.0 * defect)).collect();
+        let listed: Vec<String> = off.map(|(name, defect)| format!("{name} {:.1} %", 100.0 * defect)).collect();
         (!listed.is_empty()).then(|| {
             format!(
-                "The nodes do not resolve the derivatives by lengths. In sum, they miss what another unit of length \
-                 would change: {}. Use more nodes.",
+                "The nodes do not resolve the derivatives by lengths, such as the radius. Together, these are off by so \
+                 much of the observable: {}. Use more nodes.",
                 listed.join(", ")
             )
         })
