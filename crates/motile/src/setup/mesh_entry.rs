@@ -1,6 +1,6 @@
 //! Meshes of solids from files and arrays.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use elastic_solids::mesh::{BoundaryGroup, MeshFile, PhysicalGroup, TriangleMesh};
@@ -168,16 +168,16 @@ impl MeshSetup {
         };
         let mut factors = vec![1.0; read.triangles.len()];
         for GroupFactor { group, factor } in &read.factors {
-            for triangle in members(group, &read.groups).ok_or_else(|| unknown("triangles", group, &read.groups))? {
-                *factors.get_mut(triangle).ok_or_else(|| no_member(group, triangle))? *= factor;
-            }
+            let chosen = members(group, &read.groups, factors.len())?;
+            let chosen = chosen.ok_or_else(|| unknown("triangles", group, &read.groups))?;
+            factors.iter_mut().zip(chosen).filter(|(_, chosen)| *chosen).for_each(|(one, _)| *one *= factor);
         }
         let mut pinned = HashSet::new();
         for name in &read.pinned {
-            for point in members(name, &read.boundaries).ok_or_else(|| unknown("lines", name, &read.boundaries))? {
-                let place = read.points.get(point).ok_or_else(|| no_member(name, point))?;
-                pinned.insert(bits(read.at(*place)));
-            }
+            let chosen = members(name, &read.boundaries, read.points.len())?;
+            let chosen = chosen.ok_or_else(|| unknown("lines", name, &read.boundaries))?;
+            let places = read.points.iter().zip(chosen).filter(|(_, chosen)| *chosen);
+            pinned.extend(places.map(|(place, _)| bits(read.at(*place))));
         }
         let graded = !read.factors.is_empty();
         let corner = |point: usize| read.points.get(point).map(|point| read.at(*point)).unwrap_or_default();
@@ -214,11 +214,17 @@ fn bits(place: Vec2) -> [u64; 2] {
     [place.x.to_bits(), place.y.to_bits()]
 }
 
-/// Returns the members of all groups of a name, each once; `None` if there is no such group.
-fn members(name: &str, groups: &[MeshGroup]) -> Option<BTreeSet<usize>> {
-    let mut found = groups.iter().filter(|group| group.name == name).peekable();
-    found.peek()?;
-    Some(found.flat_map(|group| &group.members).copied().collect())
+/// Returns which of so many are members of the groups of a name; `None` if there is no such group.
+fn members(name: &str, groups: &[MeshGroup], count: usize) -> Result<Option<Vec<bool>>, SetupError> {
+    let mut chosen = vec![false; count];
+    let mut found = false;
+    for group in groups.iter().filter(|group| group.name == name) {
+        found = true;
+        for &member in &group.members {
+            *chosen.get_mut(member).ok_or_else(|| no_member(name, member))? = true;
+        }
+    }
+    Ok(found.then_some(chosen))
 }
 
 /// Groups of a mesh by place: factors on moduli, and points that are pinned.
