@@ -450,7 +450,7 @@ impl Model {
         self.rings.is_some()
     }
 
-    /// Returns true if the interface has viscosities of its own.
+    /// Returns true if the interface has a cortex.
     pub(crate) fn has_cortex(&self) -> bool {
         self.resistance.as_ref().is_some_and(|resistance| resistance.has_cortex())
     }

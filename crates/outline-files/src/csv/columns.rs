@@ -7,7 +7,7 @@ use crate::error::quoted;
 
 /// Other names of the columns of x and y.
 const OTHERS: [[&str; 2]; 4] = [["col", "row"], ["column", "row"], ["axis-1", "axis-0"], ["lon", "lat"]];
-/// Names of polar coordinates, whose tables are not those of x and y.
+/// Names of polar coordinates, which a table of x and y does not have.
 const POLAR: [&str; 8] = ["theta", "phi", "angle", "azimuth", "r", "rho", "radius", "distance"];
 /// Most names that a message lists.
 const LISTED: usize = 8;

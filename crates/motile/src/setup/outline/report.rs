@@ -50,7 +50,7 @@ const COVERED: f64 = 0.5;
 const REMARKABLE: f64 = 0.02;
 
 impl OutlineReport {
-    /// Returns what a user should know of the shape: an area that is not that of the polygon, and steps that the nodes
+    /// Returns what a user should know of the shape: an area that differs from the polygon, and steps that the nodes
     /// do not carry.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
