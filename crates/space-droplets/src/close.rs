@@ -13,6 +13,8 @@ use crate::surface::{Surface, at, dot};
 const TOUCHING: f64 = 1e-3;
 /// Iterations for the nearest point.
 const MOST: usize = 50;
+/// Part of a step that the next one takes back, above which steps are too long.
+const TAKEN_BACK: f64 = 0.25;
 
 /// The point of a surface that is nearest to a target.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +28,8 @@ pub(crate) struct Nearest {
     stretch: f64,
 }
 
-/// Finds the nearest point from a parameter close to it, by Gauss-Newton steps in the tangent plane.
+/// Finds the nearest point from a parameter close to it, by Gauss-Newton steps in the tangent plane. They are too long
+/// for targets that are far outside, so they get shorter if one step takes back the one before.
 pub(crate) fn nearest(
     positions: [&[f64]; 3],
     target: [f64; 3],
@@ -35,6 +38,7 @@ pub(crate) fn nearest(
 ) -> Result<Nearest, SpaceError> {
     let mut direction = start.direction();
     let mut best: Option<Nearest> = None;
+    let (mut shorter, mut before) = (1.0, [0.0; 3]);
     for _ in 0..MOST {
         let parameter = Point::towards(direction);
         let mut along = [[0.0; 3]; 3];
@@ -60,10 +64,16 @@ pub(crate) fn nearest(
         if length.is_nan() || length < 1e-12 {
             break;
         }
-        let factor = (0.3 / length).min(1.0);
         let ((st, ct), (sp, cp)) = (parameter.theta.sin_cos(), parameter.phi.sin_cos());
         let (to_theta, to_phi) = ([ct * cp, ct * sp, -st], [-sp, cp, 0.0]);
-        direction = std::array::from_fn(|i| direction[i] + factor * (step[0] * to_theta[i] + step[1] * to_phi[i]));
+        let step: [f64; 3] = std::array::from_fn(|i| step[0] * to_theta[i] + step[1] * to_phi[i]);
+        let back = -shorter * dot(step, before) / dot(before, before).max(f64::MIN_POSITIVE);
+        if back > TAKEN_BACK {
+            shorter /= 1.0 + back.min(1.0);
+        }
+        let factor = (0.3 / length).min(shorter);
+        before = step.map(|x| factor * x);
+        direction = std::array::from_fn(|i| direction[i] + before[i]);
         let norm = dot(direction, direction).sqrt();
         direction = direction.map(|x| x / norm);
     }

@@ -56,6 +56,7 @@
 
 mod body;
 mod close;
+mod closest;
 mod droplet;
 mod error;
 mod flow;

@@ -20,8 +20,7 @@ use crate::{CsvTable, OutputError};
 /// * `deformation`: (long - short)/(long + short).
 /// * `particle_number`, `concentration_max`, `concentration_min` (number; particles per area).
 /// * `stresslet`: `h . S h` with the stresslet S and the heading h (force times length). It is negative for a puller.
-/// * `gap`: the smallest gap to another droplet, a periodic image or a wall (length), if there is one. It is measured
-///   from the points of the grid.
+/// * `gap`: the smallest gap to another droplet, a periodic image or a wall (length), if there is one.
 /// * `tail_shape`, `tail_particles`: the size of the two highest degrees over all. They measure what is not resolved.
 ///
 /// ```

@@ -230,7 +230,6 @@ fn gaps_count_walls_and_images() {
         (gap(vec![sphere(0.0), sphere(4.7)], Box::new(move |all| cube(7.0)(all).unwrap())), 0.3),
         (gap(vec![sphere(0.0)], Box::new(|all| all)), f64::INFINITY),
     ] {
-        // Points of the grid miss the nearest one a little.
-        assert!(found == exact || (found > exact - 1e-9 && found < exact + 0.01), "{found} {exact}");
+        assert!(found == exact || (found - exact).abs() < 1e-9, "{found} {exact}");
     }
 }
