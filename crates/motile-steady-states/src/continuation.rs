@@ -11,6 +11,8 @@ use crate::profile::{Fields, Profile, RESOLVED};
 use crate::system::{Along, DIFFERENCE, NO_EFFECT, Point, System};
 use crate::{Critical, Eigenmode, Parameter, SteadyError, SteadyState, Symmetry};
 
+/// Part of the range of the parameter at which it is seen whether it breaks the mirror symmetry.
+const ASIDE: f64 = 1e-3;
 /// First step over the largest one, and the one below which a branch is given up.
 const FIRST_STEP: f64 = 0.2;
 const LEAST_STEP: f64 = 1e-4;
@@ -64,12 +66,24 @@ impl Continuation {
         start: &SteadyState,
         seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool,
     ) -> Result<Branch, SteadyError> {
-        let mut follower = Follower::new(*self, start, start.part())?;
+        let part = if self.breaks_symmetry(start) { Part::Full } else { start.part() };
+        let mut follower = Follower::new(*self, start, part)?;
         let n = follower.size();
         let mut direction = DVector::zeros(n + 1);
         direction[n] = if self.upwards { 1.0 } else { -1.0 };
         follower.turn(&direction)?;
         follower.go(seen)
+    }
+
+    /// Returns true if the parameter breaks the mirror symmetry of the start, as the slip length of one wall does.
+    fn breaks_symmetry(&self, start: &SteadyState) -> bool {
+        let Some(value) = self.parameter.get(start.setup()) else { return false };
+        let [low, high] = self.range;
+        let beside = [value - ASIDE * (high - low), value + ASIDE * (high - low)];
+        beside.into_iter().filter(|value| (low..=high).contains(value)).any(|value| {
+            let moved = self.parameter.with(start.setup(), value).and_then(|setup| System::new(&setup));
+            moved.is_ok_and(|system| !system.model.is_mirror_symmetric())
+        })
     }
 
     /// Returns the branch that crosses the one of a branch point there, in the direction of the critical mode or

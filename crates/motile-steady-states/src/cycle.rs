@@ -12,6 +12,7 @@ use crate::model::{Base, FrameMotion};
 use crate::modes::Part;
 use crate::profile::CROWDING;
 use crate::spectrum::complex;
+use crate::stencil::Stencil;
 use crate::system::{DIFFERENCE, Point, System};
 use crate::{Critical, Parameter, Profile, SteadyError, Symmetry};
 
@@ -453,8 +454,8 @@ impl LimitCycle {
             let size = self.states.len() * n;
             let (setup, value) = (&self.system.model.setup, self.value(*parameter));
             let step = DIFFERENCE * parameter.scale(setup);
-            let side = |value: f64| Ok::<_, SteadyError>(self.copy(&parameter.with(setup, value)?)?.residual()?.0);
-            let derivative = (side(value + step)? - side(value - step)?) / (2.0 * step);
+            let derivative = Stencil::short(*parameter, setup, step)
+                .derivative(step, |by| Ok(self.copy(&parameter.with(setup, value + by)?)?.residual()?.0))?;
             matrix.view_mut((0, size + 4), (size, 1)).copy_from(&derivative);
             for (j, way) in direction.iter().enumerate() {
                 matrix.view_mut((size + 4, j * n), (1, n)).copy_from(&way.transpose());

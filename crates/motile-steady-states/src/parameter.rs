@@ -83,11 +83,17 @@ pub enum Parameter {
     PoiseuilleSpeed,
     /// Half width of a Poiseuille flow in the plane (length).
     PoiseuilleHalfWidth,
+    /// Slip length of both walls of a channel, if they have the same (length).
+    Slip,
+    /// Slip length of the lower wall of a channel (length).
+    LowerSlip,
+    /// Slip length of the upper wall of a channel (length).
+    UpperSlip,
 }
 
 impl Parameter {
     /// All parameters with their names in command lines and files.
-    pub const NAMES: [(&str, Self); 34] = [
+    pub const NAMES: [(&str, Self); 37] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
@@ -122,6 +128,9 @@ impl Parameter {
         ("upper-wall", Self::UpperWall),
         ("poiseuille-speed", Self::PoiseuilleSpeed),
         ("poiseuille-half-width", Self::PoiseuilleHalfWidth),
+        ("slip", Self::Slip),
+        ("lower-slip", Self::LowerSlip),
+        ("upper-slip", Self::UpperSlip),
     ];
 
     /// Returns the name in command lines and files, from [`Parameter::NAMES`].
@@ -130,12 +139,13 @@ impl Parameter {
         Self::NAMES.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
     }
 
-    /// Returns the parameters that a description has, each number of it once: without the ratio of the viscosities and,
-    /// in boxes, without their sides together.
+    /// Returns the parameters that a description has, each number of it once: without the ratio of the viscosities, the
+    /// sides of a box together and the slip lengths of both walls together. Slip lengths are left out if both are zero.
     #[must_use]
     pub fn independent(setup: &Setup) -> Vec<Self> {
         let combined = |parameter: &Self| match parameter {
-            Self::ViscosityRatio => true,
+            Self::ViscosityRatio | Self::Slip => true,
+            Self::LowerSlip | Self::UpperSlip => setup.region.slip() == [0.0; 2],
             Self::Length => matches!(setup.region, Region::Box { .. }),
             Self::ShearRate | Self::ExtensionRate => setup.flow.is_none(),
             _ => false,
@@ -177,6 +187,12 @@ impl Parameter {
                 Region::Box { lengths: [x, y] } if x == y => Some(x),
                 _ => None,
             },
+            Self::Slip | Self::LowerSlip | Self::UpperSlip => {
+                let [lower, upper] = setup.region.slip();
+                let channel = matches!(setup.region.without_slip(), Region::Channel { .. });
+                let value = if self == Self::UpperSlip { upper } else { lower };
+                (channel && (self != Self::Slip || lower == upper)).then_some(value)
+            }
             Self::TubeRadius => match setup.region {
                 Region::Tube { radius, .. } => Some(radius),
                 _ => None,
@@ -242,6 +258,9 @@ impl Parameter {
                 Region::Box { lengths } => *lengths = [value; 2],
                 _ => return Err(missing()),
             },
+            Self::Slip => setup.region = setup.region.with_slip([value; 2]),
+            Self::LowerSlip => setup.region = setup.region.with_slip([value, setup.region.slip()[1]]),
+            Self::UpperSlip => setup.region = setup.region.with_slip([setup.region.slip()[0], value]),
             Self::TubeRadius => {
                 if let Region::Tube { radius, .. } = &mut setup.region {
                     *radius = value;

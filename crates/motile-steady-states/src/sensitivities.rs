@@ -281,7 +281,7 @@ impl SteadyState {
     ) -> Option<String> {
         let setup = self.setup();
         // Lengths that are no parameters.
-        let others = setup.region.slip() != [0.0; 2] || setup.rigid_bodies.len() > 1;
+        let others = setup.rigid_bodies.len() > 1;
         if others || Parameter::independent(setup).iter().any(|parameter| !wanted.contains(parameter)) {
             return None;
         }

@@ -198,15 +198,17 @@ impl SteadyState {
         self.moved_to(setup)
     }
 
-    /// Returns the state of a neighbouring description, over the same nodes unless the droplet changes much.
+    /// Returns the state of a neighbouring description, over the same nodes unless the droplet changes much. If the
+    /// description has no mirror symmetry, neither has the state.
     pub(crate) fn moved_to(&self, setup: &Setup) -> Result<Self, SteadyError> {
         let mut system = System::new(setup)?;
+        let part = if system.model.is_mirror_symmetric() { self.part() } else { Part::Full };
         let mut point = self.point.clone();
-        let outcome = system.newton(&mut point, self.part(), None)?;
+        let outcome = system.newton(&mut point, part, None)?;
         if !system.is_far(&point) {
-            return Self::of(&system, point, outcome, self.part());
+            return Self::of(&system, point, outcome, part);
         }
-        Self::from_profile(setup, &system.profile(&point), point.frame, self.part())
+        Self::from_profile(setup, &system.profile(&point), point.frame, part)
     }
 
     /// Returns the part of the state space that the state was found in.

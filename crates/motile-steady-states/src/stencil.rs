@@ -1,8 +1,9 @@
 //! Derivatives by differences of high order.
 
+use motile::setup::Setup;
 use nalgebra::DVector;
 
-use crate::SteadyError;
+use crate::{Parameter, SteadyError};
 
 /// Rule for a first derivative: places, in steps, and their weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,18 @@ impl Stencil {
     /// Differences of fifth order on one side, for values at the end of their range.
     pub(crate) const FORWARD: Self =
         Self(&[(0.0, -137.0 / 60.0), (1.0, 5.0), (2.0, -5.0), (3.0, 10.0 / 3.0), (4.0, -5.0 / 4.0), (5.0, 1.0 / 5.0)]);
+
+    /// Central differences of second order.
+    const SHORT: Self = Self(&[(1.0, 0.5), (-1.0, -0.5)]);
+    /// Differences of second order on one side.
+    const SHORT_FORWARD: Self = Self(&[(0.0, -1.5), (1.0, 2.0), (2.0, -0.5)]);
+
+    /// Returns differences of second order with a step of a parameter: on one side if the description allows no value
+    /// below, as at zero friction.
+    pub(crate) fn short(parameter: Parameter, setup: &Setup, step: f64) -> Self {
+        let below = parameter.get(setup).and_then(|value| parameter.with(setup, value - step).ok());
+        if below.is_some_and(|below| below.check().is_ok()) { Self::SHORT } else { Self::SHORT_FORWARD }
+    }
 
     /// Returns the derivative of a function at zero, by differences with a `step`.
     pub(crate) fn derivative(

@@ -314,13 +314,16 @@ impl System {
         point: &Point,
         parameter: Parameter,
     ) -> Result<(DVector<f64>, [f64; 2]), SteadyError> {
-        let step = DIFFERENCE * parameter.scale(&self.model.setup);
-        let side = |by: f64| {
+        let setup = &self.model.setup;
+        let step = DIFFERENCE * parameter.scale(setup);
+        let all = Stencil::short(parameter, setup, step).derivative(step, |by| {
             let mut moved = self.moved(parameter, by)?;
-            Ok::<_, SteadyError>((moved.residual(point)?, moved.model.lacks()))
-        };
-        let ((above, more), (below, less)) = (side(step)?, side(-step)?);
-        Ok(((above - below) / (2.0 * step), std::array::from_fn(|k| (more[k] - less[k]) / (2.0 * step))))
+            let rates = moved.residual(point)?;
+            let [area, number] = moved.model.lacks();
+            Ok(rates.push(area).push(number))
+        })?;
+        let n = all.len() - 2;
+        Ok((all.rows(0, n).into_owned(), [all[n], all[n + 1]]))
     }
 
     /// Returns the derivatives of the rates of the loaded point (1/time) and of the number of particles that diffuse

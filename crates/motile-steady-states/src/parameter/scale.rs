@@ -52,6 +52,9 @@ impl Parameter {
             | Self::Radius
             | Self::BoxX
             | Self::BoxY
+            | Self::Slip
+            | Self::LowerSlip
+            | Self::UpperSlip
             | Self::PoiseuilleHalfWidth => radius,
             Self::Concentration | Self::ExcludedVolumeThreshold => concentration,
             Self::NumberInside => concentration * radius.powi(if setup.region.is_axisymmetric() { 2 } else { 1 }),
@@ -84,6 +87,9 @@ impl Parameter {
             | Self::Radius
             | Self::BoxX
             | Self::BoxY
+            | Self::Slip
+            | Self::LowerSlip
+            | Self::UpperSlip
             | Self::PoiseuilleHalfWidth => 1,
             Self::Diffusion | Self::DiffusionInside => 2,
             Self::QuadraticExcludedVolume | Self::Flux => 1 + dimensions,

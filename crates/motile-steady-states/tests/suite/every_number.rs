@@ -4,15 +4,16 @@
 use motile::active_interface::Cortex;
 use motile::prelude::*;
 use motile::setup::{ExchangeSetup, ExcludedVolume, FibreSetup, FieldEntry, FieldsSetup, RigidBodySetup};
-use motile_steady_states::{Sensitivities, SteadyState};
+use motile_steady_states::{Parameter, Sensitivities, SteadyState};
 use toml::Value;
 
 /// Terms that a zero leaves out: they have derivatives from above or none.
-const LEFT_OUT: [&str; 4] = [
+const LEFT_OUT: [&str; 5] = [
     "droplets.0.cortex.viscosity",
     "droplets.0.cortex.per-concentration",
     "droplets.0.cortex.shear-viscosity",
     "droplets.0.friction",
+    "region.channel.slip.0",
 ];
 
 /// Observables of all states.
@@ -132,6 +133,30 @@ fn in_two_dimensions() {
     carried.droplets[0].particles.as_mut().unwrap().excluded_volume = ExcludedVolume::Quadratic(0.01);
     for setup in [in_box, pushed, carried] {
         assert!(check(&setup)[0] >= 10);
+    }
+}
+
+/// Slip lengths that are equal, different, and zero at one wall: each wall has a row.
+#[test]
+fn between_walls_with_slip() {
+    for slip in [[0.2, 0.2], [0.15, 0.25], [0.0, 0.1]] {
+        let region = Region::SlipChannel { length: 6.0, width: 3.2, drive: Drive::ZeroFlux, slip };
+        let setup = scene(region, -0.8, 48);
+        assert!(check(&setup)[0] >= 10);
+        let found = SteadyState::find(&setup).unwrap().sensitivities().unwrap();
+        let by_wall = [Parameter::LowerSlip, Parameter::UpperSlip].map(|wall| found.derivative("speed", wall).unwrap());
+        assert!(by_wall.iter().all(|by| by.abs() > 1e-4), "{by_wall:?}");
+        assert!(slip[0] != slip[1] || (by_wall[0] / by_wall[1] - 1.0).abs() < 1e-9, "{by_wall:?}");
+        // Both walls together, and from walls without slip.
+        let state = SteadyState::find(&setup).unwrap();
+        let both = state.sensitivities_by(&[Parameter::Slip], &[]);
+        match both {
+            Ok(both) => {
+                let sum = by_wall[0] + by_wall[1];
+                assert!((both.parameters[0].derivatives[0] / sum - 1.0).abs() < 1e-7, "{by_wall:?}");
+            }
+            Err(error) => assert!(slip[0] != slip[1], "{error}"),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use motile::base::Region;
 use motile::prelude::*;
-use motile_steady_states::{Parameter, SteadyState};
+use motile_steady_states::{BranchEnd, Continuation, Parameter, SteadyState};
 
 fn swimmer(slip: [f64; 2], nodes: usize) -> Setup {
     Setup {
@@ -41,4 +41,39 @@ fn unequal_slip_breaks_the_mirror_symmetry() {
     assert!(even.is_mirror_symmetric());
     let refused = SteadyState::near(&swimmer([0.5, 0.1], 48), even.profile(), even.velocity(), true);
     assert!(refused.is_err());
+}
+
+/// Branches start where a parameter is zero and may not be negative: slip, friction, cortex.
+#[test]
+fn branches_start_at_zero() {
+    let start = SteadyState::find(&swimmer([0.0; 2], 48)).expect("a swimmer");
+    for (parameter, end) in [(Parameter::Slip, 0.3), (Parameter::Friction, 5.0), (Parameter::Cortex, 50.0)] {
+        let branch = Continuation::new(parameter, 0.0, end).follow(&start, |_, _| true).expect("a branch");
+        let last = branch.points.last().expect("a point");
+        assert!(matches!(branch.end, BranchEnd::Range) && (last.value - end).abs() < 1e-12 * end, "{}", branch.end);
+        let direct = SteadyState::find(&parameter.with(&swimmer([0.0; 2], 48), end).expect("a number")).expect("one");
+        // States over different nodes.
+        let [along, found] = [&last.state, &direct].map(|state| state.measured().expect("as described").speed);
+        assert!((along / found - 1.0).abs() < 2e-4, "{parameter:?}: {along} {found}");
+    }
+}
+
+/// A parameter that breaks the mirror symmetry of a state leads to states without it.
+#[test]
+fn slip_at_one_wall_moves_the_swimmer_off_the_middle() {
+    let start = SteadyState::find(&swimmer([0.0; 2], 48)).expect("a swimmer");
+    assert!(start.is_mirror_symmetric());
+    let branch = Continuation::new(Parameter::LowerSlip, 0.0, 0.1).follow(&start, |_, _| true).expect("a branch");
+    let last = &branch.points.last().expect("a point").state;
+    let direct = SteadyState::find(&swimmer([0.1, 0.0], 48)).expect("a swimmer");
+    let at = start.at(Parameter::LowerSlip, 0.1).expect("a state");
+    let speeds = [last, &at, &direct].map(|state| {
+        assert!(!state.is_mirror_symmetric());
+        let sum: f64 = state.profile().positions.iter().map(|place| place.y).sum();
+        assert!((sum / 48.0).abs() > 1e-3, "{sum}");
+        state.measured().expect("as described").speed
+    });
+    println!("{speeds:?}");
+    // States over different nodes.
+    assert!(speeds.iter().all(|speed| (speed / speeds[2] - 1.0).abs() < 2e-4), "{speeds:?}");
 }
