@@ -1,12 +1,14 @@
 //! Descriptions of scenes.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 
 use motile::setup::{OutlineReport, Setup as Description};
-use toml::{Table, Value};
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
 
 use crate::error::{failed, of_earlier, of_setup, refused, unreadable};
 use crate::scene::Scene;
@@ -26,6 +28,7 @@ pub(crate) struct Setup {
 impl Setup {
     fn checked(value: &Value) -> PyResult<Self> {
         let description: Description = described(value.clone()).map_err(|error| of_earlier(value).unwrap_or(error))?;
+        without_rest(value)?;
         description.check().map_err(|error| of_setup(&error))?;
         // Like lists, the contents of files are copied.
         let description = description.with_files(Path::new("")).map_err(|error| of_setup(&error))?;
@@ -41,6 +44,34 @@ impl Setup {
 
     fn table(&self) -> PyResult<Table> {
         Table::try_from(&self.description).map_err(failed)
+    }
+}
+
+/// Refuses lists of which entries are left over, such as three coordinates where two are expected. The reader of scene
+/// files sees them; what else it refuses, such as numbers that no file can hold, is another's matter.
+fn without_rest(value: &Value) -> PyResult<()> {
+    let text = value.as_table().map_or_else(String::new, Table::to_string);
+    let Some(error) = Description::read(&text).err().filter(|error| error.message().contains("this list has")) else {
+        return Ok(());
+    };
+    let root = DeTable::parse(&text).map_err(failed)?;
+    let place = error.span().unwrap_or_default();
+    let key = root.get_ref().iter().find_map(|(name, value)| key_at(name.get_ref(), value, &place));
+    let key = key.unwrap_or_default().replace('-', "_");
+    Err(refused(&format!("{key}: {}", error.message()), Some(key), None, None))
+}
+
+/// Key of the list at a place of the text; none if it is not in this value.
+fn key_at(key: &str, value: &Spanned<DeValue<'_>>, place: &Range<usize>) -> Option<String> {
+    match value.get_ref() {
+        DeValue::Array(_) if value.span() == *place => Some(key.to_owned()),
+        DeValue::Array(list) => {
+            list.iter().enumerate().find_map(|(number, value)| key_at(&format!("{key}[{number}]"), value, place))
+        }
+        DeValue::Table(table) => {
+            table.iter().find_map(|(name, value)| key_at(&format!("{key}.{}", name.get_ref()), value, place))
+        }
+        _ => None,
     }
 }
 

@@ -101,6 +101,9 @@ def test_arrays_are_lists() -> None:
     assert motile.Setup(method=motile.integral(nodes=np.int64(32), elements=128)).method["integral"]["nodes"] == 32
 
 
+OUTLINE = "droplets[0].shape.outline.points[1]"
+
+
 @pytest.mark.parametrize(
     ("entries", "key"),
     [
@@ -118,6 +121,9 @@ def test_arrays_are_lists() -> None:
         ({"droplets": [{"centre": np.array(["a", "b"])}]}, "droplets[0].centre[0]"),
         ({"droplets": [{"centre": np.zeros((2, 2))}]}, "droplets[0].centre[0]"),
         ({"droplets": [{"tension": -1}]}, "droplets[0].tension"),
+        ({"droplets": [{}, {"centre": [0, 0, 1]}]}, "droplets[1].centre"),
+        ({"region": {"channel": {"length": 6, "width": 3, "slip": [0, 1, 2]}}}, "region.channel.slip"),
+        ({"droplets": [{"shape": {"outline": {"points": [[0, 0], [1, 0, 5], [0, 1]]}}}]}, OUTLINE),
         ({"least_gap": 10**30}, "least_gap"),
         ({"region": "box"}, "region.box"),
         ({"region": {"box": {"lengths": [6, 6]}, "tube": {"radius": 1}}}, "region"),

@@ -1,6 +1,7 @@
 //! Checks of scenes: what would run, without running it.
 
 use std::error::Error;
+use std::io::IsTerminal as _;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -101,6 +102,10 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
             error,
             "largest relative error of the speed that was measured with these settings",
         );
+    }
+    // Narrow gaps in three dimensions take minutes.
+    if std::io::stderr().is_terminal() {
+        eprintln!("trying the first {TRIED} steps ...");
     }
     scene.system_mut().evaluate()?;
     let mut warnings = Warnings::default();

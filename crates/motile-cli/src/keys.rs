@@ -217,8 +217,9 @@ pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
         (_, value) => value,
     };
     if let Some(problem) = problem(&parts, value.clone()) {
-        // Entries that belong together come one after the other.
-        let is_part = problem.starts_with("missing field") || problem.starts_with("invalid length");
+        // Entries that belong together come one after the other, unless a whole list is given.
+        let is_part =
+            problem.starts_with("missing field") || problem.starts_with("invalid length") && !value.is_array();
         ensure!(is_part, "{key} = {value}: {}", in_words(&problem));
     }
     *place = value;
@@ -334,6 +335,7 @@ fn distance(wrong: &[&str], right: &[&str]) -> f64 {
 
 /// Returns the message about a value in the words of the user, without names of types.
 pub(crate) fn in_words(problem: &str) -> String {
+    let unknown = problem.contains("unknown field ") || problem.contains("unknown variant ");
     let words = [
         ("f64", "a number"),
         ("usize", "a whole number that is not negative"),
@@ -350,7 +352,8 @@ pub(crate) fn in_words(problem: &str) -> String {
         ("unknown field ", "there is no key "),
         ("unknown variant ", "there is no choice "),
         (", expected one of ", ". Use one of "),
-        (", expected ", " cannot be used. Use "),
+        (", expected ", if unknown { ". Use " } else { " cannot be used. Use " }),
+        ("invalid length ", "the length "),
         ("invalid type: ", ""),
         ("invalid value: ", ""),
     ];

@@ -1,5 +1,6 @@
 //! Particles that gather to a point, where no steady swimmer exists.
 
+use motile::active_interface::Tension as _;
 use motile::base::Region;
 use motile::setup::{ExcludedVolume, Particles, Setup, Start};
 use motile_base::internal::Refuse as _;
@@ -48,10 +49,24 @@ pub(crate) fn refusal(setup: &Setup) -> Option<SteadyError> {
     })
 }
 
-/// Returns the error of a search, with the reason if particles gather to a point.
+/// Returns the tension at the mean concentration (force) if a positive activity makes it negative or zero: waves of such
+/// an interface grow faster the shorter they are.
+fn compression(setup: &Setup) -> Option<f64> {
+    let droplet = setup.droplets.first()?;
+    let particles = droplet.particles?;
+    let tension = particles.law(droplet.tension).ok()?.value(particles.concentration);
+    (particles.activity > 0.0 && tension <= 0.0).then_some(tension)
+}
+
+/// Returns the error of a search, with the reason if the interface is under compression or particles gather to a point.
 pub(crate) fn explained(setup: &Setup, error: SteadyError) -> SteadyError {
-    match (unbalanced(setup), &error) {
-        (Some(particles), SteadyError::NoConvergence { .. }) => SteadyError::refused(
+    match (compression(setup), unbalanced(setup), &error) {
+        (Some(tension), ..) => SteadyError::refused(
+            "no steady state was found",
+            format!("the tension at the mean concentration is {tension}, so that short waves of the interface grow"),
+            "Use a negative activity, so that particles raise the tension, or a larger tension",
+        ),
+        (_, Some(particles), SteadyError::NoConvergence { .. }) => SteadyError::refused(
             format!("no steady swimmer of the activity {} was found", particles.activity),
             "the excluded volume balances it at no concentration, so that particles gather to a point",
             "Use an excluded volume of a strength above |activity|, or a weaker activity",

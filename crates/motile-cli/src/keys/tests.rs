@@ -151,6 +151,13 @@ fn wrong_values_name_the_key_and_what_is_expected() {
         ("droplets.0.area-constraint=3", "the number `3` cannot be used. Use a boolean"),
         ("method.integral.nodes=3.5", "the number `3.5` cannot be used. Use a whole number that is not negative"),
         ("method.grid.kernel=best", "there is no choice `best`. Use one of `peskin4`"),
+        ("interfaces.0.inside=under", "interfaces.0.inside = \"under\": there is no choice `under`. Use `"),
+        ("droplets.0.centre=[1.0, 2.0, 3.0]", "droplets.0.centre = [1.0, 2.0, 3.0]: this list has 3 entries. Give 2"),
+        ("droplets.0.centre=[1.0]", "centre = [1.0]: the length 1 cannot be used. Use a list of length 2"),
+        (
+            "region.box.lengths=[6.0]",
+            "region.box.lengths = [6.0]: the length 1 cannot be used. Use two lengths, [x, y]",
+        ),
         ("droplets.0.particles=many", "\"none\" for a passive droplet"),
         ("droplets.3.angle=1", "droplets has 1 entries. Use a number from 0 to 1"),
         ("droplets.0.centre.2=1", "droplets.0.centre has 2 entries. Use a number from 0 to 1"),

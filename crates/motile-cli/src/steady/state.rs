@@ -50,7 +50,7 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     let core_offset = state.profile().nuclei.first().map(|place| (*place - centroid).to_array().to_vec());
     summary.put("core_offset", core_offset, "of the nucleus from the centroid (R0)");
     summary.put("stresslet", stresslet, "along the motion");
-    summary.put("aspect_ratio", aspect_ratio, "from area moments, along the motion over across");
+    summary.put("aspect_ratio", aspect_ratio, "along over across the motion, from area moments; at rest x over y");
     summary.put("c_max", concentration[0], "largest concentration (c0)");
     summary.put("c_min", concentration[1], "smallest concentration (c0)");
     summary.put("stability", spectrum.stability().name(), "by the error of growth rates");

@@ -43,3 +43,15 @@ fn above_the_threshold_the_error_says_that_particles_gather_to_a_point() {
     let rest = SteadyState::find(&setup(-0.3, 64)).unwrap();
     assert!(rest.velocity().length() < 1e-6, "{}", rest.velocity());
 }
+
+/// Particles that lower the tension to below zero leave no state to search for.
+#[test]
+fn an_interface_under_compression_is_named() {
+    for activity in [0.5, 1.5] {
+        let mut setup = setup(activity, 64);
+        setup.droplets[0] = DropletSetup::contractile(activity, 4.0);
+        let error = SteadyState::find(&setup).unwrap_err().to_string();
+        let (what, remedy) = ("the tension at the mean concentration is ", "Use a negative activity");
+        assert!(error.contains(what) && error.contains(remedy), "{error}");
+    }
+}

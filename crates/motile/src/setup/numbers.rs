@@ -1,5 +1,7 @@
 //! Dimensionless numbers of droplets.
 
+use std::f64::consts::TAU;
+
 use active_interface::{InterfaceError, polygon_moments};
 use motile_base::internal::Refuse as _;
 
@@ -91,8 +93,8 @@ impl Setup {
     }
 
     /// Returns a sentence for each kind of value that is legal but rarely meant. An activity may be positive, so that
-    /// the droplet does not swim (of the first such droplet), and the shape of an outline may differ from its polygon
-    /// ([`OutlineReport::remarks`]).
+    /// the droplet does not swim (of the first such droplet). An angle may be in degrees (the first one above a turn).
+    /// The shape of an outline may differ from its polygon ([`OutlineReport::remarks`]).
     ///
     /// ```
     /// use motile::prelude::*;
@@ -112,7 +114,23 @@ impl Setup {
             )
         };
         let outlines = self.outlines().unwrap_or_default();
-        positive.map(hint).chain(outlines.iter().flat_map(OutlineReport::remarks)).collect()
+        let remarks = outlines.iter().flat_map(OutlineReport::remarks);
+        positive.map(hint).chain(self.angle_in_degrees()).chain(remarks).collect()
+    }
+
+    /// Returns the hint for the first angle of a body that is more than a turn, if there is one.
+    fn angle_in_degrees(&self) -> Option<String> {
+        fn keyed(key: &str, angles: impl Iterator<Item = f64>) -> Vec<(String, f64)> {
+            angles.enumerate().map(|(number, angle)| (format!("{key}[{number}].angle"), angle)).collect()
+        }
+        let lists = [
+            keyed("droplets", self.droplets.iter().map(|droplet| droplet.angle)),
+            keyed("rigid-bodies", self.rigid_bodies.iter().map(|body| body.angle)),
+            keyed("shells", self.shells.iter().map(|shell| shell.angle)),
+        ];
+        let (key, angle) = lists.into_iter().flatten().find(|(_, angle)| angle.abs() > TAU)?;
+        let radians = angle.to_radians();
+        Some(format!("{key} = {angle}: angles are in radians. If you mean degrees, use {radians:.4}"))
     }
 }
 

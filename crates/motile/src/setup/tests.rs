@@ -1510,6 +1510,14 @@ fn droplets_that_would_collapse_are_refused() {
 }
 
 #[test]
+fn angles_in_degrees_get_a_hint() {
+    let at =
+        |angle: f64| Setup { droplets: vec![DropletSetup { angle, ..DropletSetup::active(-2.0) }], ..Setup::default() };
+    assert_eq!(at(90.0).hints(), ["droplets[0].angle = 90: angles are in radians. If you mean degrees, use 1.5708"]);
+    assert!(at(-6.2).hints().is_empty());
+}
+
+#[test]
 fn positive_activities_get_a_hint() {
     let droplets = vec![DropletSetup::active(-2.0), DropletSetup { centre: [3.0, 0.0], ..DropletSetup::active(2.0) }];
     let setup = Setup { region: Region::Box { lengths: [12.0, 6.0] }, droplets, ..Setup::default() };

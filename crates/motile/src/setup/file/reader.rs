@@ -149,7 +149,13 @@ impl<'i> Deserializer<'i> for Entry<'i> {
 
     fn deserialize_seq<V: Visitor<'i>>(self, visitor: V) -> Result<V::Value, Problem> {
         match self.0.get_ref() {
-            DeValue::Array(list) => visitor.visit_seq(List(list.iter())),
+            DeValue::Array(list) => {
+                let mut values = List(list.iter());
+                let read = visitor.visit_seq(&mut values)?;
+                // Readers of lists of a fixed length stop there.
+                let left = values.0.len();
+                if left == 0 { Ok(read) } else { Err(too_long(list.len(), left)) }
+            }
             _ => Err(self.refused(&visitor)),
         }
     }
@@ -199,10 +205,16 @@ impl<'i> Deserializer<'i> for Entry<'i> {
     }
 }
 
+/// Returns the problem of a list with so many entries of which some are left over.
+#[inline(never)]
+fn too_long(entries: usize, left: usize) -> Problem {
+    Problem::of(format!("this list has {entries} entries. Give {}", entries - left))
+}
+
 /// The values of a list.
 struct List<'i>(std::slice::Iter<'i, Spanned<DeValue<'i>>>);
 
-impl<'i> SeqAccess<'i> for List<'i> {
+impl<'i> SeqAccess<'i> for &mut List<'i> {
     type Error = Problem;
 
     fn next_element_seed<S: DeserializeSeed<'i>>(&mut self, seed: S) -> Result<Option<S::Value>, Problem> {

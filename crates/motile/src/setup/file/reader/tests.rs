@@ -100,6 +100,20 @@ fn what_is_refused_is_refused_in_the_place_where_the_other_reader_sees_it() {
     assert!(refused > 70, "{refused}");
 }
 
+/// The other reader passes over what is left of some lists.
+#[test]
+fn lists_that_are_too_long_are_refused() {
+    for (list, longer, said) in [
+        ("[1, inf]", "[1, inf, 2]", "this list has 3 entries. Give 2"),
+        ("[3, \"three\"]", "[3, \"three\", 1, 2]", "this list has 4 entries. Give 2"),
+        ("{ pair = [1, 2] }", "{ pair = [1, 2, 3] }", "this list has 3 entries. Give 2"),
+    ] {
+        let text = TEXT.replace(list, longer);
+        let error = read::<Kinds>(&text).unwrap_err().to_string();
+        assert!(error.contains(said) && error.contains(longer), "{error}");
+    }
+}
+
 #[test]
 fn unknown_settings_of_a_choice_are_refused() {
     let text = TEXT.replace("first = 1", "first = 1, third = 3");
