@@ -196,7 +196,7 @@ impl System {
         };
         let conserved = conserved.into_iter().filter(|gradient| gradient.norm() > NO_EFFECT);
         let n = jacobian.nrows();
-        let waves = self.waves_at_poles(part).into_iter().map(|k| DVector::from_fn(n, |row, _| f64::from(row == k)));
+        let waves = self.unseen_waves(part).into_iter().map(|k| DVector::from_fn(n, |row, _| f64::from(row == k)));
         let removed: Vec<DVector<f64>> = conserved.chain(generators).chain(waves).collect();
         // The equations keep disturbances that conserve area and particles, and take rigid motions to zero: the
         // eigenvalues of the orthogonal complement are all others.
@@ -204,15 +204,18 @@ impl System {
         Ok(Reduced { matrix: basis.transpose() * jacobian * &basis, basis, neutral })
     }
 
-    /// Returns the places in a part of the two largest waves of the shape, of a body of revolution with a cortex. They
-    /// move the point at a pole alone, where rings have no area. No ring feels this, so nothing pulls the point back,
-    /// and with a cortex above three times `eta R` it would move away.
-    fn waves_at_poles(&self, part: Part) -> Vec<usize> {
-        if !(self.model.is_axisymmetric() && self.model.has_cortex()) {
+    /// Returns the places in a part of the largest waves of the shape whose stretching the nodes do not see. A cortex
+    /// does not answer it rightly, so that these waves would decay slowly or grow.
+    ///
+    /// In the plane, it is the last wave, because the flow that undoes its stretching has waves beyond the nodes. Of a
+    /// body of revolution, the two largest waves together move the point at a pole alone, where rings have no area.
+    fn unseen_waves(&self, part: Part) -> Vec<usize> {
+        if !self.model.has_cortex() {
             return Vec::new();
         }
         let (range, largest) = (self.modes.part(part), self.modes.largest());
-        let waves = [largest - 1, largest].into_iter().flat_map(|wave| [false, true].map(|sine| (sine, wave)));
+        let first = if self.model.is_axisymmetric() { largest - 1 } else { largest };
+        let waves = (first..=largest).flat_map(|wave| [false, true].map(|sine| (sine, wave)));
         let places = waves.map(|(sine, wave)| self.modes.index(false, sine, wave)).filter(|k| range.contains(k));
         places.map(|k| k - range.start).collect()
     }

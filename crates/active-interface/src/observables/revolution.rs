@@ -2,7 +2,7 @@
 
 use motile_base::{InputError, Vec2};
 
-use motile_scene::MomentEllipse;
+use motile_scene::{Enclosed, MomentEllipse};
 
 use super::{ForceMoments, Frame, InterfaceState, Observables, SquirmerFit};
 use crate::InterfaceError;
@@ -63,16 +63,16 @@ pub(super) fn observe_in_space(
     record.aspect_ratio_moments = ratio.sqrt();
     record.particle_number = numbers.iter().sum();
 
-    let factor = record.convention.factor(viscosities)?;
     let mut moments = ForceMoments { in_space: true, ..ForceMoments::default() };
-    let quadrature = Rings::quadrature(markers.len());
-    for ((((x, n), f), u), weight) in parts().zip(forces).zip(velocities).zip(&quadrature) {
-        moments.force[0] += weight * f.x;
-        moments.dipole[0][0] += weight * f.x * (x.x - centre) + 2.0 * factor * u.x * n.x;
-        moments.dipole[1][1] += 0.5 * (weight * f.y * x.y + 2.0 * factor * u.y * n.y);
+    let about = [pole.x, centre];
+    moments.add_ring_sums([markers, forces, velocities], record.convention.factor(viscosities)?, surface, about);
+    for Enclosed { positions, forces, velocities, viscosities, .. } in &state.enclosed {
+        let (factor, inner) = (record.convention.factor(*viscosities)?, self::surface(positions)?);
+        moments.add_ring_sums([positions, forces, velocities], factor, &inner, about);
     }
     record.stresslet_in_laboratory = moments.stresslet();
     record.moments = moments;
+    let quadrature = Rings::quadrature(markers.len());
     let frame = Frame::of_motion(record.centroid, record.velocity, rest)?;
     let fit = |drift: f64| {
         let mut fit = SquirmerFit::default();
@@ -89,4 +89,24 @@ pub(super) fn observe_in_space(
     };
     (record.squirmer, record.squirmer_laboratory) = (fit(velocity).beyond(rest), fit(0.0).beyond(rest));
     Ok(())
+}
+
+impl ForceMoments {
+    /// Adds the sums over the markers of a surface: places, forces and velocities. `factor` is the factor of the viscous
+    /// term (stress times time). Moments are about `centre` from `pole` along the axis (length).
+    fn add_ring_sums(
+        &mut self,
+        [markers, forces, velocities]: [&[Vec2]; 3],
+        factor: f64,
+        surface: &Geometry,
+        [pole, centre]: [f64; 2],
+    ) {
+        let normals = surface.tangents.iter().zip(&surface.rings.weights).map(|(tau, weight)| *weight * outward(*tau));
+        let rows = markers.iter().zip(normals).zip(forces).zip(velocities).zip(Rings::quadrature(markers.len()));
+        for ((((x, n), f), u), weight) in rows {
+            self.force[0] += weight * f.x;
+            self.dipole[0][0] += weight * f.x * (x.x - pole - centre) + 2.0 * factor * u.x * n.x;
+            self.dipole[1][1] += 0.5 * (weight * f.y * x.y + 2.0 * factor * u.y * n.y);
+        }
+    }
 }

@@ -135,6 +135,24 @@ fn modes_of_the_sphere_grow_as_lamb_has_it() {
     }
 }
 
+/// A spectrum has no other modes than the circle has, however strong the cortex.
+#[test]
+fn no_mode_is_added_to_those_of_the_circle() {
+    for (dilatational, inside) in [(1.0, 1.0), (3.0, 0.2), (30.0, 5.0), (100.0, 1.0), (1000.0, 100.0)] {
+        for nodes in [33, 34, 48, 64] {
+            let cortex = Cortex::new(100.0 * dilatational);
+            let mut setup = scene(-0.1, cortex, Region::Plane, nodes);
+            setup.droplets[0].viscosity = Some(100.0 * inside);
+            let theory = LinearTheory::new(round(&setup)).unwrap().with_cortex(cortex.viscosity).unwrap();
+            let shapes = (2..=30).map(|k| theory.shape_growth_rate(k));
+            let rates = shapes.chain((1..=30).map(|k| theory.concentration_growth_rate(k)));
+            let rates: Vec<Complex64> = rates.map(Complex64::from).collect();
+            let error = worst_leading(&setup, 8, &rates);
+            assert!(error < 2e-9, "{cortex:?}, {inside}, {nodes} nodes: {error:.1e}");
+        }
+    }
+}
+
 /// A spectrum has no other modes than the sphere has, however strong the cortex.
 #[test]
 fn no_mode_is_added_to_those_of_the_sphere() {

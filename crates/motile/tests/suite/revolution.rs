@@ -6,7 +6,7 @@ use motile::active_interface::{
     ActiveDroplet, ContractileTension, ExcludedVolume,
     theory::{RoundDroplet, Sphere},
 };
-use motile::base::{TubeShape, Vec2};
+use motile::base::{FlowSample, TubeShape, Vec2};
 use motile::prelude::*;
 use motile::scene::{Scene, StepSize, checkpoint::Checkpoint, gap::Repulsion};
 use motile::setup::{DropletShape, RigidBodySetup, Squeezed};
@@ -346,5 +346,34 @@ fn a_perturbed_start_runs_and_swims() {
         let seen = scene.observe(droplets[0]).unwrap();
         println!("{}", seen.speed());
         assert!((seen.speed() / 0.126_082 - 1.0).abs() < 5e-3 && seen.velocity.y.abs() < 1e-12, "{}", seen.speed());
+    }
+}
+
+/// The stresslet of a droplet with another one inside is the stresslet of both: the far flow on the axis is
+/// `3 S_xx/(8 pi eta r^2)`.
+#[test]
+fn the_stresslet_counts_droplets_inside() {
+    for [place, ratio] in [[0.25, 100.0], [-0.2, 0.1]] {
+        let mut setup = scene(Region::Space, [64, 256]);
+        let inner = DropletSetup {
+            centre: [place, 0.0],
+            shape: DropletShape::Round { radius: 0.5 },
+            viscosity: Some(100.0 * ratio),
+            particles: None,
+            ..DropletSetup::default()
+        };
+        setup.droplets.push(inner);
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        scene.run(0.2).go().unwrap();
+        let [outer, inner] = [0, 1].map(|k: usize| scene.observe(droplets[k]).unwrap());
+        let (r, mut flow) = (300.0, [FlowSample::default(); 2]);
+        let places = [r, -r].map(|x| outer.centroid + Vec2::new(x, 0.0));
+        scene.system_mut().sample(&places, &mut flow).unwrap();
+        let far = 0.5 * (flow[0].velocity.x - flow[1].velocity.x) * 8.0 * PI * 100.0 * r * r / 3.0;
+        let [whole, part] = [&outer, &inner].map(|seen| seen.moments.stresslet()[0][0]);
+        println!("ratio {ratio}: far {far}, both {whole}, inner one {part}");
+        assert!((whole / far - 1.0).abs() < 1e-4, "ratio {ratio}: {whole}, far {far}");
+        assert!(part.abs() > 0.1 * far.abs(), "the inner one matters: {part}");
+        assert!(outer.moments.force[0].abs() < 1e-6 * far.abs(), "{:?}", outer.moments.force);
     }
 }
