@@ -37,7 +37,7 @@ for (const [name, time] of Object.entries(TIMES)) {
       288,
       192,
     );
-    return small.toDataURL("image/webp", 0.75);
+    return small.toDataURL("image/webp", 0.6);
   });
   writeFileSync(join(out, `${name}.webp`), Buffer.from(data.split(",")[1], "base64"));
 }

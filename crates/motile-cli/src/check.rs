@@ -86,7 +86,16 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
             };
             let [groups, lines] = [&mesh.groups, &mesh.boundaries].map(|groups| names(groups));
             let about = format!("{} points; groups of triangles: {groups}; of lines: {lines}", mesh.points.len());
-            report.put(&format!("solids[{number}].outline.mesh.triangles"), mesh.triangles.len(), &about);
+            let key = format!("solids[{number}].outline.mesh");
+            report.put(&format!("{key}.triangles"), mesh.triangles.len(), &about);
+            let place = |corner: usize| mesh.points.get(corner).map_or([f64::NAN; 2], |point| *point);
+            let area: f64 = mesh.triangles.iter().map(|corners| area(corners.map(place))).sum();
+            let [x, y] = [0, 1].map(|axis| {
+                let sides = mesh.points.iter().map(|point| point[axis]);
+                sides.clone().fold(f64::NEG_INFINITY, f64::max) - sides.fold(f64::INFINITY, f64::min)
+            });
+            let about = format!("of all triangles; {} long and {} high", told(mesh.scale * x), told(mesh.scale * y));
+            report.put(&format!("{key}.area"), mesh.scale * mesh.scale * area, &about);
         }
     }
     let mut gap = scene.system().minimum_gap();
@@ -140,6 +149,11 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
         say(format_args!("warning: {warning}"));
     }
     Ok(())
+}
+
+/// Returns the area of a triangle (length squared).
+fn area([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }
 
 /// Returns the dimensionless numbers of a droplet as text after a comma; empty without activity.

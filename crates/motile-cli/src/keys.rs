@@ -14,6 +14,8 @@ use toml::{Table, Value};
 
 /// Key that no part of a scene has.
 const NO_KEY: &str = "no-such-key";
+/// End of what is expected where one number stands for the two of both walls.
+const PAIR: &str = "or two: [lower, upper]";
 /// Most keys that a message suggests.
 const SUGGESTED: usize = 3;
 
@@ -172,7 +174,7 @@ pub fn written_out(setup: &Setup) -> Result<Value> {
 pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
     let dotted = key.replace('[', ".").replace(']', "");
     let parts: Vec<&str> = dotted.split('.').collect();
-    let mut place = scene;
+    let (mut place, mut in_pair) = (scene, false);
     for (depth, part) in parts.iter().enumerate() {
         let above = parts[..depth].join(".");
         place = match kind(&parts[..depth]) {
@@ -205,6 +207,17 @@ pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
                 }
                 &mut list[number]
             }
+            // One number for several, such as the slip length of both walls, becomes their list.
+            Kind::Leaf(expected)
+                if part.parse::<usize>().is_ok_and(|number| number < 2) && expected.ends_with(PAIR) =>
+            {
+                if !place.as_array().is_some_and(|list| list.len() == 2) {
+                    let both = if place.is_table() { Value::Float(0.0) } else { place.clone() };
+                    *place = Value::Array(vec![both; 2]);
+                }
+                in_pair = true;
+                &mut place[usize::from(*part == "1")]
+            }
             Kind::Leaf(expected) => {
                 bail!("{key}: {above} is {expected}, so it has no keys below it. Set {above} itself")
             }
@@ -216,7 +229,8 @@ pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
         (Value::Float(_), Value::Integer(number)) => Value::Float(number as f64),
         (_, value) => value,
     };
-    if let Some(problem) = problem(&parts, value.clone()) {
+    let checked = if in_pair { &parts[..parts.len() - 1] } else { &parts[..] };
+    if let Some(problem) = problem(checked, value.clone()) {
         // Entries that belong together come one after the other, unless a whole list is given.
         let is_part =
             problem.starts_with("missing field") || problem.starts_with("invalid length") && !value.is_array();

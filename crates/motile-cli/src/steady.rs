@@ -5,7 +5,7 @@ mod state;
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use clap::Args;
 use motile::setup::Setup;
 use motile_steady_states::Parameter;
@@ -68,7 +68,7 @@ pub fn steady(flags: &SteadyFlags) -> Result<()> {
         return solve(&setup, wanted, &out);
     };
     let parameter = parameter(&setup, key)?;
-    let from = parameter.get(&setup).with_context(|| format!("the scene has no {key}"))?;
+    let from = parameter.get(&setup).map_or_else(|| parameter.with(&setup, 0.0).map(|_| f64::NAN), Ok)?;
     let settings = DiagramSettings {
         parameter,
         range: [from, to],

@@ -213,6 +213,10 @@ impl Parameter {
     /// Returns an error for a description without the parameter.
     pub fn with(self, setup: &Setup, value: f64) -> Result<Setup, SteadyError> {
         let missing = || {
+            if self == Self::Slip && setup.region.slip() != [0.0; 2] {
+                let what = format!("the walls have different slip lengths, {:?}", setup.region.slip());
+                return SteadyError::unsupported(what, "Use lower-slip or upper-slip, one wall at a time");
+            }
             let what = format!("the scene has no parameter {}", self.name());
             SteadyError::unsupported(what, "Use another parameter, or a region or a droplet that has it")
         };

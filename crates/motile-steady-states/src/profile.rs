@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile::base::Region;
+use motile::base::{Region, TubeShape};
 use motile::setup::{DropletShape, Setup};
 use motile_base::{
     PeriodicSeries, Vec2,
@@ -225,6 +225,16 @@ impl Profile {
         let lengths =
             periodic.iter().enumerate().map(|(k, z)| mean * step * k as f64 + z.re - periodic[0].re).collect();
         Ok((lengths, self.density.iter().zip(&rates).map(|(m, rate)| m / rate).collect()))
+    }
+
+    /// Returns the smallest distance of the nodes from the straight walls of a region (length); `None` without such walls.
+    pub(crate) fn film(&self, setup: &Setup) -> Option<f64> {
+        let reach = self.positions.iter().map(|x| x.y.abs()).fold(0.0, f64::max);
+        match setup.region.without_slip() {
+            Region::Channel { width, .. } => Some(0.5 * width - reach),
+            Region::Tube { radius, shape: TubeShape::Straight, .. } => Some(radius - reach),
+            _ => None,
+        }
     }
 
     /// Refuses a droplet that reaches into a wall or its own periodic image, or that does not hold all of its discs.

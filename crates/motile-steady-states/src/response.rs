@@ -15,6 +15,8 @@ const AMPLITUDE: f64 = 1e-3;
 const LARGEST: f64 = 0.01;
 /// Farthest value of a parameter that differences use, over its size.
 const REACH: f64 = 3.0 * LARGEST;
+/// Parts of the usual steps that are tried if these fail.
+const SHORTER: [f64; 2] = [0.1, 0.01];
 /// Most corrections of a response, and their relative size below which the next one is round-off.
 const MOST_CORRECTIONS: usize = 6;
 const SMALL: f64 = 1e-6;
@@ -128,14 +130,27 @@ impl Linearised {
         rate
     }
 
-    /// Returns the response to a parameter.
+    /// Returns the response to a parameter. Steps of it are shortened if a value has no flow, such as a width at which
+    /// the droplet would reach into a wall.
     pub(crate) fn response(&mut self, parameter: Parameter) -> Result<Response, SteadyError> {
+        let mut outcome = self.response_with(parameter, 1.0);
+        for shorter in SHORTER {
+            if outcome.is_ok() {
+                break;
+            }
+            outcome = self.response_with(parameter, shorter);
+        }
+        outcome
+    }
+
+    /// Returns the response to a parameter, from steps that are a part of the usual ones.
+    fn response_with(&mut self, parameter: Parameter, part: f64) -> Result<Response, SteadyError> {
         let setup = self.system.model.setup.clone();
-        let (value, natural) = (parameter.get(&setup).unwrap_or(f64::NAN), parameter.scale(&setup));
+        let (value, natural) = (parameter.get(&setup).unwrap_or(f64::NAN), part * parameter.scale(&setup));
         let allowed = |by: f64| parameter.with(&setup, value + by).is_ok_and(|setup| setup.check().is_ok());
         // A value far below its natural size allows no step of that size to the other side of zero.
         let below = allowed(-REACH * natural);
-        let scale = if below || value == 0.0 || allowed(REACH * natural) { natural } else { value.abs() };
+        let scale = if below || value == 0.0 || allowed(REACH * natural) { natural } else { part * value.abs() };
         let below = below || scale < natural;
         let stencil = if below { Stencil::CENTRAL } else { Stencil::FORWARD };
         let mut tangent = Tangent { state: DVector::zeros(self.point.state.len()), frame: [0.0; 3] };

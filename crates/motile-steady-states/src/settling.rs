@@ -1,7 +1,10 @@
 //! Steady states from a description: implicit steps in time, then Newton's method.
 
+use std::f64::consts::TAU;
+
 use motile::setup::{IntegralMethod, Method, Setup};
 use motile_base::Vec2;
+use motile_base::internal::Refuse as _;
 use nalgebra::{DMatrix, DVector};
 
 use crate::collapse;
@@ -12,6 +15,12 @@ use crate::spectrum::{Eigenmode, Symmetry};
 use crate::system::{Point, System};
 use crate::{Parameter, Profile, SteadyError, SteadyState};
 
+/// What is wrong with a droplet that has come to a wall on the way.
+const AT_WALL: &str = "on the way to a steady state, the droplet comes to a wall and stays there";
+/// Distance from a wall, over the distance of the finest nodes on the way, below which the droplet touches it, and the
+/// steps shorter than `R^2/D` after which it counts as stuck there.
+const TOUCHING: f64 = 0.1;
+const STUCK: usize = 3;
 /// Number of nodes on the way to a state, and the most where the droplet on the way needs more.
 const COARSE: usize = 64;
 const FINEST: usize = 160;
@@ -73,6 +82,9 @@ impl SteadyState {
     /// Finds the steady state.
     fn searched(setup: &Setup) -> Result<Self, SteadyError> {
         Self::settled(setup).or_else(|error| {
+            if matches!(&error, SteadyError::Refused(refusal) if refusal.what == AT_WALL) {
+                return Err(error);
+            }
             let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
             let at = |part: f64| Parameter::Activity.with(setup, part * goal);
             let start = at(WEAKER).and_then(|setup| Self::settled(&setup)).map_err(|_| error)?;
@@ -131,6 +143,8 @@ impl SteadyState {
                 }
                 // A state that runs away, to no numbers in the end.
                 Err(SteadyError::Flow(_) | SteadyError::Input(_)) => failure = settling.failure(MOST_STEPS),
+                // More attempts would take minutes.
+                Err(SteadyError::Refused(refusal)) if refusal.what == AT_WALL => return Err(refusal.into()),
                 Err(error) => failure = error,
             }
         }
@@ -169,6 +183,8 @@ struct Settling {
     /// Next step in time (time).
     step: f64,
     attempt: Attempt,
+    /// Short steps at a wall so far.
+    at_wall: usize,
 }
 
 impl Settling {
@@ -179,7 +195,7 @@ impl Settling {
         let point = system.point(&profile, [0.0; 3])?;
         let rates = system.residual(&point)?;
         let step = FIRST_STEP / system.model.rate_unit();
-        Ok(Self { system, point, part, rates, step, attempt })
+        Ok(Self { system, point, part, rates, step, attempt, at_wall: 0 })
     }
 
     /// Returns true if the droplet moves by itself.
@@ -198,6 +214,7 @@ impl Settling {
                 self.point = self.system.rebased(&self.point)?;
                 return Ok(());
             }
+            self.stay_off_walls()?;
             self.step *= (part * USUAL_CHANGE / change).clamp(0.5, 2.0);
             let strained = most_nodes.is_some() && self.system.tail(&self.point)? > RESOLVED;
             if strained || self.system.is_far(&self.point) {
@@ -205,6 +222,19 @@ impl Settling {
             }
         }
         Err(self.failure(most_steps))
+    }
+
+    /// Refuses a droplet that stays at a wall without becoming steady there.
+    fn stay_off_walls(&mut self) -> Result<(), SteadyError> {
+        let model = &self.system.model;
+        let Some(film) = self.system.profile(&self.point).film(&model.setup) else { return Ok(()) };
+        let touches = film < TOUCHING * TAU * model.radius / FINEST as f64;
+        self.at_wall = if touches && self.step * model.rate_unit() < 1.0 { self.at_wall + 1 } else { 0 };
+        if self.at_wall < STUCK {
+            return Ok(());
+        }
+        let remedy = "Run the scene to see where the droplet goes. For a state with such a film, follow a branch to it";
+        Err(SteadyError::refused(AT_WALL, format!("the film is {film:.1e} thick"), remedy))
     }
 
     /// Takes one step, shortened until it succeeds; returns the largest change of a coefficient.

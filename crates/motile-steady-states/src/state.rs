@@ -254,6 +254,13 @@ impl SteadyState {
         self.point.frame[2]
     }
 
+    /// Returns the smallest distance of the nodes from the walls of a channel or a straight tube (length); `None` for
+    /// other regions.
+    #[must_use]
+    pub fn wall_gap(&self) -> Option<f64> {
+        self.profile.film(&self.setup)
+    }
+
     /// Returns true for a state that is its own mirror image at the x axis.
     #[must_use]
     pub fn is_mirror_symmetric(&self) -> bool {

@@ -29,9 +29,9 @@ struct Row<'a> {
     fields: Vec<Field<'a>>,
 }
 
-/// Returns the outlines of a table. Blank lines separate them, and so do the values of a column that numbers cells,
-/// contours or frames.
-pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
+/// Returns the outlines of a table, and true if y runs downwards in it. Blank lines separate outlines, and so do the
+/// values of a column that numbers cells, contours or frames.
+pub(crate) fn read(text: &str) -> Result<(Vec<Contour>, bool), OutlineError> {
     let lines = lines_of(text);
     let mut rest = lines.as_slice();
     while let [(_, line), after @ ..] = rest
@@ -72,7 +72,7 @@ pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
         let remedy = "Correct this number, or remove the line";
         return Err(OutlineError::format(format!("line {line}"), problem, remedy));
     }
-    let Some(start) = rows.first() else { return Ok(Vec::new()) };
+    let Some(start) = rows.first() else { return Ok((Vec::new(), false)) };
     if header.is_none() {
         header = remark.and_then(|remark| columns::in_remark(remark, start.fields.len()));
     }
@@ -86,7 +86,7 @@ pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
         let remedy = "Remove this column, or add a header line that names the columns x and y";
         return Err(OutlineError::format("the table", "its first column counts the points", remedy));
     }
-    Ok(contours)
+    Ok((contours, columns.downwards))
 }
 
 /// Returns the lines with their numbers, without comments at their ends. Files of old programs end lines by a carriage

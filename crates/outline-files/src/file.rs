@@ -92,7 +92,7 @@ impl OutlineFile {
             match text.bytes().next() {
                 Some(b'<') => (FileFormat::Svg, (svg::read(&text)?, true)),
                 Some(b'{' | b'[') => (FileFormat::GeoJson, geojson::read(&text)?),
-                _ => (FileFormat::Csv, (csv::read(&text)?, false)),
+                _ => (FileFormat::Csv, csv::read(&text)?),
             }
         };
         if contours.is_empty() {
@@ -107,7 +107,8 @@ impl OutlineFile {
         Ok(file)
     }
 
-    /// Returns true if y runs downwards in this file, as in pictures: in SVG, ImageJ, and GeoJSON of QuPath.
+    /// Returns true if y runs downwards in this file, as in pictures: in SVG, ImageJ, GeoJSON of QuPath, and
+    /// tables of rows and columns.
     #[must_use]
     pub fn y_runs_down(&self) -> bool {
         self.y_runs_down

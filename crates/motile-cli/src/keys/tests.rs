@@ -112,6 +112,10 @@ fn values_replace_what_excludes_them() {
         centre = [3.0, 0.0]
     "#;
     assert_eq!(setup, toml::from_str(expected).unwrap());
+    // One number for both walls, and then another one for one of them.
+    set(&mut scene, "region.channel.slip", Value::Float(0.2)).unwrap();
+    set(&mut scene, "region.channel.slip.1", Value::Float(0.3)).unwrap();
+    assert_eq!(scene.clone().try_into::<Setup>().unwrap().region.slip(), [0.2, 0.3]);
     // A word takes the place of a table, and the other way round.
     set(&mut scene, "region", Value::String("plane".to_owned())).unwrap();
     set(&mut scene, "region.tube.radius", Value::Float(2.0)).unwrap();

@@ -184,7 +184,7 @@ impl Job {
             summary.put("area_fraction", filled, "of the droplets at the start");
         }
         if let Some(distance) = self.off_points {
-            summary.put("distance_from_points", distance, "of curves through points from their polygons (R0)");
+            summary.put("distance_from_points", distance, "of curves through points from their polygons (length)");
         }
         summary.put("time", scene.time(), "simulated");
         summary.put("steps", scene.steps(), "");

@@ -11,6 +11,8 @@ use motile_steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry}
 
 use crate::run::{ORIGIN_KEY, Summary, command, make_directory, say};
 
+/// Gap to a wall over the distance of nodes below which there is a warning.
+const THIN: f64 = 0.3;
 /// Growth rates in the summary.
 const LEADING: usize = 5;
 
@@ -68,6 +70,8 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
         let about = "of the heading by the noise of the particles at strength 1 (1/T)";
         summary.put("rotational_diffusion", guidance.rotational_diffusion, about);
     }
+    let gap = state.wall_gap();
+    summary.put("wall_gap", gap, "smallest distance of the nodes from the walls (R0)");
     summary.put("residual", state.residual(), "largest rate of change left (1/T)");
     let origin = format!("{}; command: {}", setup.origin(), command());
     summary.put(ORIGIN_KEY, origin.as_str(), "of the results");
@@ -90,6 +94,11 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     table.flush()?;
     summary.write(&out.join("summary.json"))?;
     say(summary.table().trim_end());
+    let spacing = state.measured()?.perimeter / state.profile().nodes() as f64;
+    if let Some(gap) = gap.filter(|gap| *gap < THIN * spacing) {
+        let advice = "Compare with twice the nodes, because the film may not be resolved";
+        say(format_args!("warning: the gap to the wall, {gap:.1e}, is below {THIN} node distances. {advice}"));
+    }
     if sensitivities {
         let modes: Vec<Eigenmode> = leading.cloned().into_iter().collect();
         let table = state.sensitivities_with(&modes)?;

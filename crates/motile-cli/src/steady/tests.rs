@@ -48,6 +48,8 @@ fn keys_of_parameters_stand_for_them() {
          strength = 10.0, threshold = 200.0, steepness = 20.0 }\n[[rigid-bodies]]\nshape.round.radius = 0.2\n",
         "region.channel = { length = 12.0, width = 3.0, drive.gradient = 0.1 }\nflow.wall-velocity = [0.1, 0.2]\n\
          [[droplets]]\nviscosity = 50.0\nparticles.excluded-volume.quadratic = 0.1\n",
+        "region.channel = { length = 12.0, width = 3.0, slip = [0.1, 0.2] }\n[[droplets]]\nviscosity = 50.0\n",
+        "region.channel = { length = 12.0, width = 3.0, slip = 0.1 }\n[[droplets]]\nviscosity = 50.0\n",
         "region.tube = { radius = 2.0, drive.flux = 0.1 }\n[[droplets]]\nviscosity = 50.0\n\
          cortex = { viscosity = 1.0, shear-viscosity = 2.0 }\n",
         "region = \"plane\"\nflow.poiseuille = { speed = 0.1, half-width = 3.0 }\n[[droplets]]\nviscosity = 50.0\n",
@@ -59,4 +61,7 @@ fn keys_of_parameters_stand_for_them() {
             assert_eq!(parameter(&setup, known.key(&setup)).unwrap(), known, "{}", known.key(&setup));
         }
     }
+    let sticking = Setup::from_toml("region.channel = { length = 12.0, width = 3.0 }\n[[droplets]]\n").unwrap();
+    assert_eq!(parameter(&sticking, "region.channel.slip").unwrap(), Parameter::Slip);
+    assert_eq!(parameter(&sticking, "region.channel.slip.1").unwrap(), Parameter::UpperSlip);
 }

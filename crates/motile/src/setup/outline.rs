@@ -58,8 +58,8 @@ pub struct OutlineSetup {
     pub points: Vec<[f64; 2]>,
     /// Length of the unit of the points, such as the side of a pixel (length).
     pub scale: f64,
-    /// If true, y runs downwards in the file, as in pictures; `None` for true in SVG files and regions of ImageJ, and
-    /// false otherwise.
+    /// If true, y runs downwards in the file, as in pictures; `None` for true in SVG files, regions of ImageJ
+    /// and QuPath, and tables of rows and columns, and false otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flip: Option<bool>,
     /// Place of the file that comes to lie in `place`; `None` for the centroid where a body has a centre, and for the

@@ -21,6 +21,8 @@ pub(super) struct Columns {
     pub(super) shift: usize,
     /// True for a table of more than two columns without names.
     pub(super) unnamed: bool,
+    /// True for rows and columns of a picture, in which rows run downwards.
+    pub(super) downwards: bool,
 }
 
 /// Returns the names of so many columns in a comment, if two of them are x and y.
@@ -74,10 +76,14 @@ impl Columns {
                 Some([place(axes[0])?, place(axes[1])?])
             })
         };
+        let mut downwards = false;
         let [x, y] = match [named(&names, "x").as_slice(), named(&names, "y").as_slice()] {
             [[x], [y]] => [*x, *y],
             [[], []] => match other() {
-                Some(found) => found,
+                Some(found) => {
+                    downwards = !names.iter().any(|name| name == "lat");
+                    found
+                }
                 None if names.iter().any(|name| POLAR.iter().any(|polar| starts_with_word(name, polar))) => {
                     let remedy = "Give x = r cos(theta) and y = r sin(theta) instead, in columns x and y";
                     let problem = format!("the columns {} are polar coordinates", list());
@@ -89,7 +95,7 @@ impl Columns {
             _ => return refused(format!("more or less than one of the columns {} is x, or y", list())),
         };
         let shift = shift_of(names.len(), rows)?;
-        Ok(Self { x: x + shift, y: y + shift, shift, unnamed: false })
+        Ok(Self { x: x + shift, y: y + shift, shift, unnamed: false, downwards })
     }
 
     /// Returns the first two columns.
@@ -110,7 +116,7 @@ impl Columns {
             let remedy = "Separate the columns by semicolons, or name them in a first line";
             return Err(OutlineError::format("the table", problem, remedy));
         }
-        Ok(Self { x: 0, y: 1, shift: 0, unnamed: width > 2 })
+        Ok(Self { x: 0, y: 1, shift: 0, unnamed: width > 2, downwards: false })
     }
 }
 

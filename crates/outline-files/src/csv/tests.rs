@@ -36,6 +36,15 @@ fn tables_of_other_programs() {
     }
 }
 
+/// Rows of a picture run downwards, latitudes upwards.
+#[test]
+fn rows_run_downwards() {
+    for (names, expected) in [("row,col", true), ("axis-0,axis-1", true), ("lat,lon", false), ("y,x", false)] {
+        let (_, downwards) = read(&format!("{names}\n0,0\n0,2.5\n1,2.5\n1,0\n")).unwrap();
+        assert_eq!(downwards, expected, "{names}");
+    }
+}
+
 /// A table of all cells of a picture: one outline for each, also if their lines alternate.
 #[test]
 fn columns_tell_outlines_apart() {
@@ -43,7 +52,7 @@ fn columns_tell_outlines_apart() {
     let mixed = "frame\tx\ty\n3\t0\t0\n5\t7\t7\n3\t2.5\t0\n5\t8\t7\n3\t2.5\t1\n5\t8\t8\n3\t0\t1\n";
     let both = "frame,label,x,y\n1,3,0,0\n1,3,2.5,0\n1,3,2.5,1\n1,3,0,1\n1,5,7,7\n1,5,8,7\n1,5,8,8\n";
     for text in [one, mixed, both] {
-        let found = read(text).unwrap();
+        let (found, _) = read(text).unwrap();
         let names: Vec<_> = found.iter().map(|one| one.name.as_deref()).collect();
         assert_eq!(names, [Some("3"), Some("5")], "{text}");
         assert_eq!(found[0].points, SQUARE.map(|[x, y]| Vec2::new(x, y)), "{text}");
@@ -80,7 +89,7 @@ fn tables_that_may_mean_something_else_are_refused() {
 }
 
 fn points(text: &str) -> Vec<[f64; 2]> {
-    let contours = read(text).unwrap();
+    let (contours, _) = read(text).unwrap();
     assert_eq!(contours.len(), 1, "{text}");
     contours[0].points.iter().map(|point| [point.x, point.y]).collect()
 }
@@ -106,7 +115,7 @@ fn separators_headers_and_comments() {
 
 #[test]
 fn blank_lines_separate_outlines() {
-    let found = read("x y\n0 0\n1 0\n0 1\n\n\n5 5\n6 5\n5 6\n").unwrap();
+    let (found, _) = read("x y\n0 0\n1 0\n0 1\n\n\n5 5\n6 5\n5 6\n").unwrap();
     assert_eq!(found.len(), 2);
     assert_eq!(found[1].points[0], Vec2::new(5.0, 5.0));
 }
