@@ -211,7 +211,7 @@ pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
             Kind::Leaf(expected)
                 if part.parse::<usize>().is_ok_and(|number| number < 2) && expected.ends_with(PAIR) =>
             {
-                if !place.as_array().is_some_and(|list| list.len() == 2) {
+                if place.as_array().is_none_or(|list| list.len() != 2) {
                     let both = if place.is_table() { Value::Float(0.0) } else { place.clone() };
                     *place = Value::Array(vec![both; 2]);
                 }

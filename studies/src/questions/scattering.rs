@@ -180,7 +180,9 @@ pub(super) fn scattering() -> Result<Vec<Table>> {
         .chain(over(pushers, &[0.0, 1.0]))
         .chain(over(Meeting { repulsion: None, ..pushers }, &[1.0]))
         .chain(over(Meeting { angle: 90.0, ..pushers }, &[0.0, 1.0, 2.5]))
-        .chain(over(Meeting { swimmer: PULLER, ..pushers }, &[2.5]));
+        .chain(over(Meeting { swimmer: PULLER, ..pushers }, &[2.5]))
+        .chain(over(Meeting { degree: 14, ..pushers }, &[0.25, 1.0]))
+        .chain(over(Meeting { swimmer: PULLER, degree: 12, ..pushers }, &[1.0, 1.5]));
     for meeting in meetings {
         let Meeting { swimmer: (name, ..), degree, angle, offset, distance, repulsion } = meeting;
         let range = repulsion.map_or_else(|| "off".to_owned(), |[_, range]| range.to_string());
