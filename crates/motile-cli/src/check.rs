@@ -81,7 +81,7 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
     for (number, solid) in placed.solids.iter().enumerate() {
         if let SolidOutline::Mesh(mesh) = &solid.outline {
             let names = |groups: &[MeshGroup]| {
-                let names: Vec<&str> = groups.iter().map(|group| group.name.as_str()).collect();
+                let names: Vec<String> = groups.iter().map(|group| format!("{:?}", group.name)).collect();
                 if names.is_empty() { "none".to_owned() } else { names.join(", ") }
             };
             let [groups, lines] = [&mesh.groups, &mesh.boundaries].map(|groups| names(groups));
