@@ -49,8 +49,8 @@ pub(crate) fn refusal(setup: &Setup) -> Option<SteadyError> {
     })
 }
 
-/// Returns the tension at the mean concentration (force) if a positive activity makes it negative or zero: waves of such
-/// an interface grow faster the shorter they are.
+/// Returns the tension at the mean concentration (force) if a positive activity makes it negative or zero. Waves of
+/// such an interface grow faster the shorter they are.
 fn compression(setup: &Setup) -> Option<f64> {
     let droplet = setup.droplets.first()?;
     let particles = droplet.particles?;

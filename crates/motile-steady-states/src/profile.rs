@@ -227,7 +227,7 @@ impl Profile {
         Ok((lengths, self.density.iter().zip(&rates).map(|(m, rate)| m / rate).collect()))
     }
 
-    /// Returns the smallest distance of the nodes from the straight walls of a region (length); `None` without such walls.
+    /// Returns the smallest distance of the nodes from the straight walls of a region (length); `None` without walls.
     pub(crate) fn film(&self, setup: &Setup) -> Option<f64> {
         let reach = self.positions.iter().map(|x| x.y.abs()).fold(0.0, f64::max);
         match setup.region.without_slip() {

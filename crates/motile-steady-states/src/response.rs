@@ -143,7 +143,7 @@ impl Linearised {
         outcome
     }
 
-    /// Returns the response to a parameter, from steps that are a part of the usual ones.
+    /// Returns the response to a parameter, from steps of the usual size times `part`.
     fn response_with(&mut self, parameter: Parameter, part: f64) -> Result<Response, SteadyError> {
         let setup = self.system.model.setup.clone();
         let (value, natural) = (parameter.get(&setup).unwrap_or(f64::NAN), part * parameter.scale(&setup));

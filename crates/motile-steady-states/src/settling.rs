@@ -15,7 +15,7 @@ use crate::spectrum::{Eigenmode, Symmetry};
 use crate::system::{Point, System};
 use crate::{Parameter, Profile, SteadyError, SteadyState};
 
-/// What is wrong with a droplet that has come to a wall on the way.
+/// Problem of a droplet that has come to a wall on the way.
 const AT_WALL: &str = "on the way to a steady state, the droplet comes to a wall and stays there";
 /// Distance from a wall, over the distance of the finest nodes on the way, below which the droplet touches it, and the
 /// steps shorter than `R^2/D` after which it counts as stuck there.

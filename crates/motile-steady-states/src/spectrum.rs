@@ -204,8 +204,8 @@ impl System {
         Ok(Reduced { matrix: basis.transpose() * jacobian * &basis, basis, neutral })
     }
 
-    /// Returns the places in a part of the largest waves of the shape whose stretching the nodes do not see. A cortex
-    /// does not answer it rightly, so that these waves would decay slowly or grow.
+    /// Returns the indices, among the coefficients of the given symmetry, of the largest waves of the shape, whose
+    /// stretching the nodes do not see. A cortex does not answer it rightly, so these waves would decay slowly or grow.
     ///
     /// In the plane, it is the last wave, because the flow that undoes its stretching has waves beyond the nodes. Of a
     /// body of revolution, the two largest waves together move the point at a pole alone, where rings have no area.

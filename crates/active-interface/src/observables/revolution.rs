@@ -92,8 +92,8 @@ pub(super) fn observe_in_space(
 }
 
 impl ForceMoments {
-    /// Adds the sums over the markers of a surface: places, forces and velocities. `factor` is the factor of the viscous
-    /// term (stress times time). Moments are about `centre` from `pole` along the axis (length).
+    /// Adds the sums over the markers of a surface, from their places, forces and velocities. `factor` is the factor of
+    /// the viscous term (stress times time). Moments are about `centre` from `pole` along the axis (length).
     fn add_ring_sums(
         &mut self,
         [markers, forces, velocities]: [&[Vec2]; 3],

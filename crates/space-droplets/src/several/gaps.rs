@@ -15,8 +15,8 @@ use crate::surroundings::Surroundings;
 const FARTHEST: f64 = 1e3;
 
 impl SpaceDroplets {
-    /// Returns the smallest gap (length) between the surfaces of two droplets or their periodic images, negative if they
-    /// overlap. It is exact for the shapes of these degrees, also between the points of their grids.
+    /// Returns the smallest gap (length) between the surfaces of two droplets or their periodic images. It is
+    /// negative if they overlap. It is exact for the shapes of these degrees, also between the points of their grids.
     ///
     /// # Errors
     /// Returns an error if there are no droplets of these two numbers, or the errors of [`SpaceDroplets::evaluate`].
