@@ -13,6 +13,8 @@ const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, ar
 const page = await browser.newPage({ viewport: { width: 1400, height: 900 }, colorScheme: "light" });
 await page.goto(address);
 await page.waitForFunction(() => document.documentElement.dataset.first);
+// Tracers are dust at this size.
+await page.click("[data-look=tracers]");
 for (const [name, time] of Object.entries(TIMES)) {
   await page.click(`[data-name=${name}]`);
   await page.waitForFunction(() => Number(document.documentElement.dataset.steps) > 0);
