@@ -7,6 +7,8 @@ use crate::Refusal;
 
 /// Strongest activity of a slider (force times length).
 const MOST_ACTIVITY: f64 = 8.0;
+/// Step of a slider whose scale is not logarithmic: values that the answers name are reached.
+pub const STEP: f64 = 0.05;
 
 /// Parameter with a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,11 +105,10 @@ impl Knob {
         let before = self.value(setup).ok_or_else(missing)?;
         // From zero there are no ratios to keep.
         let factor = if before == 0.0 { None } else { Some(value / before) };
-        let scaled = |old: f64| factor.map_or(value, |factor| if old == before { value } else { old * factor });
+        let scaled = |old| factor.map_or(value, |factor| if old == before { value } else { rounded(old * factor) });
         let mut turned = setup.clone();
         let exterior = setup.viscosity;
-        let suspended = turned.suspension.iter_mut().map(|entry| &mut entry.droplet);
-        for droplet in turned.droplets.iter_mut().chain(suspended) {
+        for droplet in &mut turned.droplets {
             self.turn_droplet(droplet, &scaled, exterior);
         }
         for entry in &mut turned.suspension {
@@ -116,11 +117,10 @@ impl Knob {
                 Self::ViscosityRatio => entry.viscosity.as_mut(),
                 Self::Diffusion | Self::Size => None,
             };
-            if let Some(range) = range {
-                match factor {
-                    Some(factor) => scale(range, factor),
-                    None => *range = Distribution::Value(value),
-                }
+            match (range, factor) {
+                (Some(range), Some(factor)) => scale(range, factor),
+                (Some(range), None) => *range = Distribution::Value(value),
+                (None, _) => self.turn_droplet(&mut entry.droplet, &scaled, exterior),
             }
         }
         if self == Self::Size {
@@ -145,7 +145,7 @@ impl Knob {
             (Self::Diffusion, Some(particles)) => particles.diffusion = scaled(particles.diffusion),
             (Self::ViscosityRatio, _) => {
                 let ratio = scaled(droplet.viscosity.unwrap_or(exterior) / exterior);
-                droplet.viscosity = Some(ratio * exterior).filter(|inside| *inside != exterior);
+                droplet.viscosity = Some(rounded(ratio * exterior)).filter(|inside| *inside != exterior);
             }
             _ => {}
         }
@@ -162,6 +162,11 @@ fn strongest(setup: &Setup) -> f64 {
     }
 }
 
+/// Value to five digits: people read it in the text of the scene.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}
+
 /// Middle of a distribution.
 fn middle(distribution: Distribution) -> f64 {
     match distribution {
@@ -173,13 +178,16 @@ fn middle(distribution: Distribution) -> f64 {
 
 fn scale(distribution: &mut Distribution, factor: f64) {
     match distribution {
-        Distribution::Value(value) => *value *= factor,
-        Distribution::Between(range) => {
-            range.iter_mut().for_each(|end| *end *= factor);
+        Distribution::Value(value) => *value = rounded(*value * factor),
+        // The middle is the slider's value.
+        Distribution::Between([low, high]) => {
+            let whole = (*low + *high) * factor;
+            *low = rounded(*low * factor);
+            *high = rounded(whole - *low);
         }
         Distribution::Normal { mean, deviation } => {
-            *mean *= factor;
-            *deviation *= factor.abs();
+            *mean = rounded(*mean * factor);
+            *deviation = rounded(*deviation * factor.abs());
         }
     }
 }

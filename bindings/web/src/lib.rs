@@ -13,6 +13,7 @@ pub mod knob;
 pub mod live;
 pub mod preset;
 mod refusal;
+pub mod text;
 
 pub use refusal::Refusal;
 
@@ -114,7 +115,8 @@ impl Engine {
             "error": setup.expected_error(),
             "map": branch::mapped(setup).is_some(),
             "units": { "length": 1e6 * units.unit(Quantity::Length), "time": units.unit(Quantity::Time),
-                       "activity": 1e12 * units.unit(Quantity::Activity) },
+                       "activity": 1e12 * units.unit(Quantity::Activity),
+                       "pressure": units.unit(Quantity::Stress) },
         })
         .to_string()
     }
@@ -236,6 +238,15 @@ impl Engine {
     pub fn drag(&mut self, droplet: usize, x: f64, y: f64) -> Result<(), JsValue> {
         self.live.drag(droplet, Vec2::new(x, y)).map_err(thrown)
     }
+}
+
+/// Text of a scene file with another value of a parameter ([`text::turned`]).
+///
+/// # Errors
+/// Texts that are no scene, and values for which there is none.
+#[wasm_bindgen]
+pub fn turned(text: &str, knob: &str, value: f64) -> Result<String, JsValue> {
+    Knob::named(knob).and_then(|knob| text::turned(text, knob, value)).map_err(thrown)
 }
 
 /// Presets as JSON.

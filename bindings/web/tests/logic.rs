@@ -7,7 +7,7 @@ use motile_web::concise::concise;
 use motile_web::knob::Knob;
 use motile_web::live::Live;
 use motile_web::preset::PRESETS;
-use motile_web::{branch, branch::Line, dust::Dust, frame};
+use motile_web::{branch, branch::Line, dust::Dust, frame, text};
 
 fn small() -> Setup {
     Setup {
@@ -214,6 +214,60 @@ fn several_droplets_keep_their_ratios() {
     assert!(Knob::Size.value(&sixteen).is_none() && Knob::Size.value(&preset("constriction")).is_none());
     assert!(Knob::Size.turned(&sixteen, 9.0).is_err());
     assert_eq!(Knob::Size.label(&preset("channel")), "Channel width");
+}
+
+/// The text that a reader typed keeps its comments, and is the scene with the slider's value.
+#[test]
+fn sliders_change_typed_texts() {
+    let typed = "# mine\nregion.box.lengths = [8, 6.0] # wide\n\n[[droplets]]\n# left\ncentre = [-2, 0.0]\n\
+                 particles.activity = -4\n[[droplets]]\ncentre = [2.0, 0.0]\nviscosity = 500.0\n";
+    for (knob, value, expected) in [
+        (
+            Knob::Activity,
+            -2.0,
+            // The second droplet has the activity of the defaults.
+            typed.replace("activity = -4\n[[droplets]]", "activity = -2.0\n[[droplets]]\nparticles.activity = -1.0"),
+        ),
+        (Knob::Size, 10.0, typed.replace("[8, 6.0]", "[10.0, 7.5]")),
+        (
+            Knob::ViscosityRatio,
+            0.51,
+            typed.replace("[[droplets]]\n# left", "[[droplets]]\nviscosity = 51.0\n# left").replace("500.0", "255.0"),
+        ),
+    ] {
+        assert_eq!(text::turned(typed, knob, value).expect("a text"), expected, "{knob:?}");
+    }
+    // An interior as viscous as the fluid around it.
+    let viscous = typed.replace("# left", "viscosity = 300.0");
+    let equal = text::turned(&viscous, Knob::ViscosityRatio, 1.0).expect("a text");
+    assert!(equal.contains("viscosity = 100.0") && equal.contains("viscosity = 166.67"), "{equal}");
+    assert!(text::turned("no scene", Knob::Activity, -2.0).is_err());
+    assert!(text::turned("", Knob::Activity, -2.0).is_err());
+    // Every scene with every slider.
+    for preset in PRESETS {
+        let setup = Setup::from_toml(preset.scene).expect("a scene");
+        for (name, knob) in Knob::NAMES {
+            let Some(value) = knob.value(&setup) else { continue };
+            let value = if knob == Knob::Size { value + 1.0 } else { 0.5 * value };
+            let turned = text::turned(preset.scene, knob, value).expect("a text");
+            let [read, wanted] =
+                [Setup::from_toml(&turned).expect("a scene"), knob.turned(&setup, value).expect("a scene")];
+            assert_eq!(read, wanted, "{}, {name}: {turned}", preset.name);
+            // Suspensions have no lines for their droplets.
+            let kept = preset.name != "sixteen" || knob == Knob::Activity;
+            assert_eq!(turned.starts_with('#'), kept, "{}, {name}: {turned}", preset.name);
+        }
+    }
+}
+
+#[test]
+fn sliders_write_round_numbers() {
+    let [swimmer, sixteen] = [preset("swimmer"), preset("sixteen")];
+    let viscosity = |ratio| Knob::ViscosityRatio.turned(&swimmer, ratio).expect("a scene").droplets[0].viscosity;
+    assert_eq!([2.51, 1.13, 0.7].map(viscosity), [Some(251.0), Some(113.0), Some(70.0)]);
+    let turned = Knob::Activity.turned(&sixteen, -2.8).expect("a scene");
+    assert!(concise(&turned).expect("a text").contains("activity = [-3.0545, -2.5455]"));
+    assert_eq!(Knob::Activity.value(&turned), Some(-2.8));
 }
 
 #[test]
