@@ -74,6 +74,7 @@ export class Picture {
     this.flow = null;
     this.centre = null;
     this.top = null;
+    this.range = NaN;
     this.steepest = 0;
     this.camera = { ...FRESH };
     this.held = false;
@@ -142,6 +143,28 @@ export class Picture {
     if (!b) return a;
     const part = (this.shown - a.time) / (b.time - a.time);
     return { ...b, time: this.shown, shapes: between(a.shapes, b.shapes, Math.min(Math.max(part, 0), 1)) };
+  }
+
+  /** Distance of two droplets, the nearest images of them (length); not a number for other counts. */
+  gap() {
+    const frame = this.frames.at(-1);
+    if (frame?.middles.length !== 2) return NaN;
+    if (frame.gap === undefined) {
+      const [a, b] = frame.shapes.filter(({ kind }) => kind === DROPLET);
+      const [x, y] = [0, 1].map((axis) => {
+        const [period, way] = [this.about.periods[axis], frame.middles[1][axis] - frame.middles[0][axis]];
+        return period ? period * Math.round(way / period) : 0;
+      });
+      let least = Infinity;
+      for (let j = 0; j < a.points.length; j += 3)
+        for (let k = 0; k < b.points.length; k += 3)
+          least = Math.min(
+            least,
+            (b.points[k] - x - a.points[j]) ** 2 + (b.points[k + 1] - y - a.points[j + 1]) ** 2,
+          );
+      frame.gap = Math.sqrt(least);
+    }
+    return frame.gap;
   }
 
   /** Middle of the picture and its extent (length) before the camera moves. */
@@ -258,6 +281,7 @@ export class Picture {
           Math.abs(sorted[Math.floor(0.97 * (sorted.length - 1))] - mean),
           Math.abs(sorted[Math.floor(0.03 * sorted.length)] - mean),
         ) || 1;
+      this.range = most;
       const context = tile.getContext("2d");
       const image = context.createImageData(nx, ny);
       for (let j = 0; j < ny; j += 1) {
@@ -388,9 +412,11 @@ export class Picture {
   drawShapes(state, view, pixel) {
     const { context } = this;
     const thick = Math.max(0.085, 2.6 * pixel);
+    let droplets = 0;
     for (let number = 0; number < state.shapes.length; number += 1) {
       const shape = state.shapes[number];
       if (shape.kind === HOLE) continue;
+      if (shape.kind === DROPLET) droplets += 1;
       let [low, high] = [
         [Infinity, Infinity],
         [-Infinity, -Infinity],
@@ -411,7 +437,10 @@ export class Picture {
           context.strokeStyle = this.colours.soft;
           context.lineWidth = 1.3 * pixel;
           context.stroke();
-        } else if (shape.kind === DROPLET) this.drawDroplet(shape, low, high, thick);
+        } else if (shape.kind === DROPLET) {
+          this.drawDroplet(shape, low, high, thick);
+          if (state.middles.length > 1) this.write(droplets, middle(shape), pixel);
+        }
         else if (shape.kind === OPEN) this.drawCarrier(shape, thick, true);
         else {
           context.beginPath();
@@ -492,11 +521,18 @@ export class Picture {
     context.moveTo(x, y);
     context.lineTo(x + size / unit, y);
     context.stroke();
+    this.write(`${size} µm`, [x, y + 6 * pixel], pixel);
+  }
+
+  /** Words from a place on. */
+  write(words, [x, y], pixel) {
+    const { context } = this;
     context.save();
-    context.translate(x, y + 6 * pixel);
+    context.translate(x, y);
     context.scale(pixel, -pixel);
+    context.fillStyle = this.colours.ink;
     context.font = "12px system-ui, sans-serif";
-    context.fillText(`${size} µm`, 0, 0);
+    context.fillText(words, 0, 0);
     context.restore();
   }
 
@@ -525,11 +561,15 @@ export class Picture {
     }
   }
 
-  drawScale(canvas) {
-    const context = canvas.getContext("2d");
-    for (let x = 0; x < canvas.width; x += 1) {
-      context.fillStyle = rgb(particles(x / (canvas.width - 1), this.name));
-      context.fillRect(x, 0, 1, canvas.height);
-    }
+  /** Scales of the particles and of the pressure. */
+  drawScales(canvases) {
+    canvases.forEach((canvas, pressures) => {
+      const context = canvas.getContext("2d");
+      for (let x = 0; x < canvas.width; x += 1) {
+        const part = x / (canvas.width - 1);
+        context.fillStyle = rgb(pressures ? pressure(2 * part - 1, this.name) : particles(part, this.name));
+        context.fillRect(x, 0, 1, canvas.height);
+      }
+    });
   }
 }

@@ -1,7 +1,7 @@
 // The page: buttons, sliders, drag and drop of droplets, links and downloads around a simulation in a worker.
 import { Picture } from "./draw.js";
 import { ActivityMap, Plots, clock, short } from "./plots.js";
-import { plain } from "./problem.js";
+import { doubt, plain } from "./problem.js";
 import { packed, unpacked } from "./link.js";
 
 const $ = (id) => document.getElementById(id);
@@ -11,9 +11,14 @@ const plots = new Plots($("plots"), $("more"));
 const map = new ActivityMap($("map"));
 
 let about = null;
+// Numbers of the newest scene that was asked for, and of the one that the worker has; the presets that they are.
 let number = 0;
-let previous = 0;
+let loaded = 0;
 let preset = null;
+let before = null;
+// The request for a scene that the worker is at, and the newest one after it.
+let begun = null;
+let queued = null;
 let presets = [];
 let playing = false;
 let droplets = 0;
@@ -25,7 +30,26 @@ let asked = 0;
 const answers = new Map();
 
 function send(message) {
-  worker.postMessage(message);
+  worker.postMessage({ ...message, number });
+}
+
+/** Asks for a scene. One at a time is begun, and after it the newest. */
+function request(message) {
+  number += 1;
+  queued = { ...message, id: number };
+  // What is still on its way to the scene before is not for this one.
+  if (turning) turning.next = null;
+  if (moving) moving = { x: 0, y: 0 };
+  drag = null;
+  $("knobs").inert = true;
+  $("view").classList.add("stale");
+  if (!begun) begin();
+}
+
+function begin() {
+  begun = queued;
+  queued = null;
+  if (begun) worker.postMessage(begun);
 }
 
 /** Answer of the worker to a question. */
@@ -64,19 +88,21 @@ $("reveal").addEventListener("click", () => {
 
 // ---------------------------------------------------------------------------------------------------- scenes
 
-function load(text, { name = null, play = false } = {}) {
-  previous = number;
-  number += 1;
+function setPreset(name) {
   preset = name;
   showLesson();
   for (const button of $("presets").children)
     button.setAttribute("aria-pressed", String(button.dataset.name === name));
+}
+
+function load(text, { name = null, play = false } = {}) {
+  setPreset(name);
   wanted = { play, text };
   document.documentElement.dataset.steps = "0";
   note("");
   $("problem").textContent = "";
   setPlaying(false);
-  send({ kind: "load", scene: text, id: number });
+  request({ kind: "load", scene: text, name });
 }
 let wanted = { play: false, text: "" };
 
@@ -106,18 +132,20 @@ function choose(name) {
 
 async function fromAddress() {
   let problem = "";
+  const named = /[#&]p=([a-z]+)/.exec(location.hash)?.[1];
+  const found = presets.find((one) => one.name === named);
   try {
     const text = await unpacked(location.hash);
     if (text !== null) {
-      load(text, { play: true });
+      load(text, { name: found?.name, play: true });
       return;
     }
   } catch {
     problem = "The link is not complete: it holds no scene. Ask for it again, or copy it as a whole.";
   }
-  const named = /^#p=([a-z]+)/.exec(location.hash)?.[1];
-  const found = presets.find((one) => one.name === named);
   const known = found || location.hash.length < 2 || $(location.hash.slice(1));
+  // A link within the page leaves the scene as it is.
+  if (about && known && !found && !problem) return;
   if (!problem && !known) problem = "The link names no scene that this page has: this is the first of its scenes.";
   const shown = found ?? presets[0];
   load(shown.scene, { name: shown.name, play: true });
@@ -130,6 +158,7 @@ function showAbout(message) {
   const fresh = message.number !== picture.number;
   about = message.about;
   plots.units = about.units;
+  $("knobs").inert = false;
   map.unit = about.units.length / about.units.time;
   scene = message.scene;
   if (fresh) {
@@ -137,11 +166,14 @@ function showAbout(message) {
     picture.number = message.number;
     plots.begin();
     touched = 0;
-    $("scene").value = wanted.text.trim() === "" ? scene : wanted.text.trimEnd() + "\n";
+    $("scene").value = wanted.text.trimEnd() + "\n";
   } else {
     picture.about = about;
-    $("scene").value = scene;
-    note("");
+    const { typed, box, kept } = message;
+    if (box && box !== typed && $("scene").value === typed) $("scene").value = box;
+    $("problem").textContent = kept ? plain(kept) : "";
+    if (kept) note("The slider acts on the droplets, but not on your text below, which has a mistake.", true);
+    else note("");
   }
   showKnobs();
   showCode();
@@ -168,7 +200,7 @@ function showKnobs() {
       const output = document.createElement("output");
       output.htmlFor = `knob-${name}`;
       const input = document.createElement("input");
-      Object.assign(input, { type: "range", id: `knob-${name}`, min: 0, max: 1000, step: 1 });
+      Object.assign(input, { type: "range", id: `knob-${name}`, step: 1 });
       row.append(label, output, input);
       box.append(row);
       input.addEventListener("input", () => turn(name, fromSlider(knobs.get(name).knob, Number(input.value))));
@@ -179,6 +211,9 @@ function showKnobs() {
     const row = knobs.get(knob.name);
     row.knob = knob;
     row.label.textContent = knob.label;
+    const { least, most, step } = knob;
+    row.input.min = step ? Math.ceil(least / step - 1e-6) : 0;
+    row.input.max = step ? Math.floor(most / step + 1e-6) : 1000;
     if (!row.busy) row.input.value = toSlider(knob, knob.value);
     showValue(row, row.busy ? fromSlider(knob, Number(row.input.value)) : knob.value);
   }
@@ -209,14 +244,13 @@ function showValue(row, value) {
   row.input.setAttribute("aria-valuetext", row.output.textContent.trim());
 }
 
-function toSlider({ least, most, logarithmic }, value) {
-  const part = logarithmic ? Math.log(value / least) / Math.log(most / least) : (value - least) / (most - least);
-  return Math.round(1000 * part);
+/** Steps of a value, or thousandths of a logarithmic scale. */
+function toSlider({ least, most, step }, value) {
+  return Math.round(step ? value / step : (1000 * Math.log(value / least)) / Math.log(most / least));
 }
 
-function fromSlider({ least, most, logarithmic }, at) {
-  const value = logarithmic ? least * (most / least) ** (at / 1000) : least + (at / 1000) * (most - least);
-  return logarithmic ? Number(value.toPrecision(3)) : Math.round(50 * value) / 50;
+function fromSlider({ least, most, step }, at) {
+  return Number((step ? at * step : least * (most / least) ** (at / 1000)).toPrecision(3));
 }
 
 let turning = null;
@@ -235,7 +269,7 @@ function turn(name, value) {
     return;
   }
   turning = { next: null };
-  send({ kind: "turn", knob: name, value });
+  send({ kind: "turn", knob: name, value, typed: $("scene").value });
   setTimeout(() => {
     const next = turning?.next;
     turning = null;
@@ -259,6 +293,7 @@ function setPlaying(value) {
 function play() {
   note("");
   setPlaying(!playing);
+  if (begun) wanted.play = playing;
   send({ kind: playing ? "play" : "pause" });
   if (!playing) picture.catchUp();
   changed = true;
@@ -271,10 +306,11 @@ function step() {
 
 function reset() {
   setPlaying(false);
-  wanted = { play: false, text: $("scene").value };
-  plots.begin();
-  picture.number = null;
-  send({ kind: "reset" });
+  wanted.play = false;
+  // A scene that is about to begin does so at its start.
+  if (!about || begun) return;
+  wanted.text = $("scene").value;
+  request({ kind: "reset", name: preset });
 }
 
 function pace() {
@@ -283,6 +319,7 @@ function pace() {
 
 function take(message) {
   last = message;
+  $("view").classList.remove("stale");
   droplets = message.shapes ? countDroplets(message) : droplets;
   picture.add(message);
   plots.add(message.series, droplets, message.all);
@@ -333,13 +370,14 @@ worker.onmessage = ({ data }) => {
     answers.delete(data.id);
     return;
   }
-  if (data.kind === "grabbed") {
-    grabbed(data.droplet);
-    return;
-  }
   if (data.kind === "error") {
     complain(data);
     return;
+  }
+  if (data.kind === "about" && data.number === begun?.id) {
+    loaded = data.number;
+    before = begun.name;
+    begin();
   }
   if (data.number !== number) {
     if (data.kind === "frame") send({ kind: "shown" });
@@ -352,10 +390,14 @@ worker.onmessage = ({ data }) => {
       setPlaying(true);
       send({ kind: "play" });
     }
-  } else if (data.kind === "frame") take(data);
+  } else if (data.kind === "grabbed") grabbed(data.droplet);
+  else if (data.kind === "frame") take(data);
   else if (data.kind === "ended") {
     setPlaying(false);
-    note(`The run has reached t = ${data.time.toFixed(2)} (${clock(data.time * about.units.time)}).`);
+    note(
+      `The run has reached t = ${data.time.toFixed(2)} (${clock(data.time * about.units.time)}).` +
+        (until ? " To continue, clear “Stop at t”, or give a later time." : ""),
+    );
   }
 };
 
@@ -367,20 +409,28 @@ function loadingFailed() {
 }
 worker.onerror = loadingFailed;
 
-function complain({ error, place, id }) {
+function complain({ error, place, id, number: of }) {
   if (answers.has(id)) {
     answers.get(id).reject(new Error(error.message));
     answers.delete(id);
     return;
   }
-  if (place === "load") {
+  if (id && id === begun?.id) {
+    begin();
+    if (begun) return;
     // The scene before is still there.
-    number = previous;
+    number = loaded;
+    setPreset(before);
+    if (loaded && picture.number !== loaded) send({ kind: "tell" });
+    $("knobs").inert = false;
+    $("view").classList.remove("stale");
     // That of a link is not in the box yet.
     $("scene").value = wanted.text;
     $("problem").textContent = plain(error);
     note("This scene cannot run. The text box below says why and what to do.", true);
     $("loading").hidden = true;
+  } else if (of !== number && place !== "init") {
+    // It is about a scene that has gone.
   } else if (place === "drag") note("There is no room for the droplet there: it would overlap a wall or another body.");
   else if (place === "turn") {
     note(plain(error), true);
@@ -389,17 +439,17 @@ function complain({ error, place, id }) {
   } else if (place === "init") loadingFailed();
   else {
     setPlaying(false);
-    note(plain(error, place === "run" || place === "step"), true);
+    note(plain(error, place === "run" || place === "step", droplets), true);
   }
 }
 
 // ---------------------------------------------------------------------------------------------------- pictures
 
-let before = performance.now();
+let drawnAt = performance.now();
 let sentView = "";
 function tick(now) {
-  const seconds = Math.min((now - before) / 1000, 0.1);
-  before = now;
+  const seconds = Math.min((now - drawnAt) / 1000, 0.1);
+  drawnAt = now;
   if (playing && picture.follow(seconds, last?.pace > 0 ? Math.min(pace(), 1.05 * last.pace) : pace()))
     changed = true;
   if (about && picture.frames.length && changed && !document.hidden) {
@@ -409,6 +459,15 @@ function tick(now) {
     plots.draw();
     if (about.map) map.draw();
     $("scale-top").textContent = picture.top ? `${picture.top}× mean` : "";
+    const pressures = brief(Number((about.units.pressure * picture.range).toPrecision(2)));
+    $("legend").classList.toggle("pressure", picture.look.pressure && pressures !== "–");
+    $("low").textContent = `pressure −${pressures}`;
+    $("high").textContent = `${pressures} Pa`;
+    const gap = picture.gap();
+    $("gap").hidden = Number.isNaN(gap);
+    const value = document.createElement("b");
+    value.textContent = `${short(gap)} (${short(gap * about.units.length)} µm)`;
+    $("gap").replaceChildren("Gap between 1 and 2", value);
     const view = picture.view;
     if (view) {
       const key = [view.left, view.low, view.right, view.high].map((value) => value.toFixed(2)).join();
@@ -422,26 +481,38 @@ function tick(now) {
   requestAnimationFrame(tick);
 }
 
-let described = 0;
+let later = 0;
+let again = false;
 async function warn() {
   try {
     const list = JSON.parse(await ask({ kind: "ask", what: "warnings" }));
-    $("warnings").textContent = list.map((text) => `These results may be inaccurate. ${text}.`).join("\n");
+    const past = list.filter(({ present }) => !present).map(({ until }) => until);
+    $("warnings").textContent = list
+      .filter(({ present }) => present)
+      .map((one) => doubt(one, about.activity, droplets))
+      .join("\n");
+    $("past").textContent = past.length
+      ? `Up to t = ${Math.max(...past).toFixed(1)}, results may have been less accurate.`
+      : "";
   } catch {
     // Another scene has come in between.
   }
 }
 
 function describe() {
-  const now = performance.now();
-  if (now - described < 1500) return;
-  described = now;
+  // At times, and once more after the last change.
+  again = later > 0;
+  if (again) return;
+  later = setTimeout(() => {
+    later = 0;
+    if (again) changed = true;
+  }, 1500);
   warn();
-  const speed = short((plots.last(0, 0) * about.units.length) / about.units.time);
+  const speed = plots.told(0, about.units.length / about.units.time);
   const count = droplets === 1 ? "One droplet" : `${droplets} droplets`;
   $("canvas").setAttribute(
     "aria-label",
-    `${count} at time ${picture.state().time.toFixed(1)}; speed of the first ${speed} micrometres per second`,
+    `${count} at time ${picture.state().time.toFixed(1)}; speed ${speed} micrometres per second`,
   );
   $("map").setAttribute(
     "aria-label",
@@ -466,7 +537,7 @@ for (const button of $("look").querySelectorAll("[data-look]")) {
 
 function restyle() {
   picture.restyle();
-  picture.drawScale($("scale"));
+  picture.drawScales([...$("legend").querySelectorAll("canvas")]);
   changed = true;
 }
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -665,6 +736,9 @@ function fill() {
 function filled(on) {
   $("stage").classList.toggle("full", on);
   $("full").setAttribute("aria-pressed", String(on));
+  // The sliders go along.
+  if (on) $("view").after($("knobcard"));
+  else document.querySelector("aside").prepend($("knobcard"));
   changed = true;
 }
 document.addEventListener("fullscreenchange", () => filled(Boolean(document.fullscreenElement)));
@@ -673,12 +747,38 @@ $("play").addEventListener("click", play);
 $("step").addEventListener("click", step);
 $("reset").addEventListener("click", reset);
 $("pace").addEventListener("change", () => send({ kind: "pace", pace: pace() }));
+let until = "";
 $("until").addEventListener("change", () => {
-  const value = $("until").value.trim();
-  send({ kind: "until", until: value === "" ? NaN : Number(value) });
+  const field = $("until");
+  const [text, time, now] = [field.value.trim(), Number(field.value), last?.time ?? 0];
+  let bad = "";
+  if (field.validity.badInput) bad = "Give “Stop at t” as a number.";
+  else if (time < 0) bad = "Times begin at 0, so a run cannot stop at a negative one.";
+  else if (text && time <= now)
+    bad = `The run is at t = ${now.toFixed(2)} already. Give a later time, or press R to restart first.`;
+  note(bad, true);
+  if (bad) {
+    field.value = until;
+    return;
+  }
+  until = text;
+  send({ kind: "until", until: text ? time : NaN });
   showCode();
 });
-$("run").addEventListener("click", () => load($("scene").value, { play: true }));
+
+/** What a scene consists of: a preset is still the same one while only its values change. */
+const parts = (text) =>
+  (text.match(/^\s*(\[\[.*?\]\]|\[?region\W+[\w-]+)/gm) ?? []).map((part) => part.replace(/\W/g, "")).join();
+
+$("run").addEventListener("click", () => {
+  const text = $("scene").value;
+  if (!text.replace(/#.*/g, "").trim()) {
+    $("problem").textContent = "There is no scene in the box. Type one, or choose a scene above.";
+    return;
+  }
+  const same = presets.some(({ name, scene }) => name === preset && parts(scene) === parts(text));
+  load(text, { name: same ? preset : null, play: true });
+});
 $("scene").addEventListener("keydown", (event) => {
   if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) $("run").click();
 });
@@ -688,11 +788,10 @@ let codeTimer = 0;
 function showCode() {
   clearTimeout(codeTimer);
   codeTimer = setTimeout(async () => {
-    const until = Number($("until").value) || 20;
     try {
-      $("code").textContent = await ask({ kind: "ask", what: "code", arguments: [way, until] });
+      $("code").textContent = await ask({ kind: "ask", what: "code", arguments: [way, Number(until) || 20] });
     } catch (error) {
-      note(error.message, true);
+      if (!begun) note(error.message, true);
     }
   }, 120);
 }
@@ -727,7 +826,8 @@ async function copied(text, words) {
 $("copy").addEventListener("click", () => copied($("code").textContent, "Copied."));
 $("link").addEventListener("click", async () => {
   try {
-    history.replaceState(null, "", "#" + (await packed(await ask({ kind: "ask", what: "scene" }))));
+    const text = await packed(await ask({ kind: "ask", what: "scene" }));
+    history.replaceState(null, "", `#${text}${preset ? `&p=${preset}` : ""}`);
     await copied(location.href, "A link with the whole scene is copied.");
   } catch (error) {
     note(error.message, true);
@@ -801,5 +901,6 @@ window.motile = {
   },
   ask: (what, ...list) => ask({ kind: "ask", what, arguments: list }),
   load: (text) => load(text),
+  shown: () => ({ preset, droplets, stale: $("view").classList.contains("stale"), text: $("scene").value }),
 };
 requestAnimationFrame(tick);

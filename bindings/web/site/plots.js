@@ -25,8 +25,12 @@ function tick(value, step) {
   return (Math.abs(value) < 1e-9 * step ? 0 : value).toFixed(digits).replace("-", "−");
 }
 
+/** Size below which a value is round-off. */
+const NONE = 1e-9;
+
 export function short(value) {
   if (!Number.isFinite(value)) return "–";
+  if (Math.abs(value) < NONE) return "0";
   const size = Math.abs(value);
   const text =
     size !== 0 && size < 0.0095 ? value.toExponential(1) : value.toFixed(size < 1 ? 3 : size < 100 ? 2 : 0);
@@ -74,13 +78,22 @@ export class Plots {
   add(series, droplets, all) {
     if (all) this.rows = [];
     const width = 1 + 3 * droplets;
-    for (let at = 0; at + width <= series.length; at += width) this.rows.push(series.subarray(at, at + width));
+    const values = series.map((value) => (Math.abs(value) < NONE ? 0 : value));
+    for (let at = 0; at + width <= values.length; at += width) this.rows.push(values.subarray(at, at + width));
     // What is older is in the table for download.
     if (this.rows.length > 6000) this.rows = this.rows.filter((_, k) => k % 2 === 0);
   }
 
   last(kind, droplet = 0) {
     return this.rows.at(-1)?.[1 + 3 * droplet + kind] ?? NaN;
+  }
+
+  /** The last values of all droplets in words: each of two, the mean of more. */
+  told(kind, unit = 1) {
+    const list = (this.rows.at(-1) ?? []).slice(1).filter((_, k) => k % KINDS.length === kind);
+    if (list.length === 2) return [...list].map((value, k) => `${k + 1}: ${short(unit * value)}`).join(", ");
+    if (list.length < 2) return short(unit * (list[0] ?? NaN));
+    return `mean ${short((unit * list.reduce((sum, value) => sum + value, 0)) / list.length)}`;
   }
 
   draw() {
@@ -92,7 +105,7 @@ export class Plots {
     const [context, width, height] = fitted(canvas);
     const { rows } = this;
     const unit = zero ? this.units.length / this.units.time : 1;
-    output.textContent = short(this.last(number) * unit) + (zero ? " µm/s" : "");
+    output.textContent = this.told(number, unit) + (zero ? " µm/s" : "");
     if (rows.length === 0) return;
     const droplets = (rows[0].length - 1) / 3;
     const span = Math.max(rows.at(-1)[0], 5);
@@ -106,7 +119,7 @@ export class Plots {
         if (value > high) high = value;
       }
     }
-    if (!(high > low)) [low, high] = [Number.isFinite(low) ? low - 0.5 : 0, Number.isFinite(high) ? high + 0.5 : 1];
+    if (!(high > low)) [low, high] = Number.isFinite(high) ? [zero ? 0 : low - 0.5, high + 0.5] : [0, 1];
     if (!zero && high - low < 0.002 * Math.abs(high))
       [low, high] = [low - 0.001 * Math.abs(high), high + 0.001 * Math.abs(high)];
     const margin = 0.08 * (high - low);
@@ -135,8 +148,9 @@ export class Plots {
     context.strokeStyle = property("--accent");
     context.lineJoin = "round";
     for (let d = droplets - 1; d >= 0; d -= 1) {
-      context.globalAlpha = droplets === 1 || d === 0 ? 1 : 0.35;
+      context.globalAlpha = d === 0 ? 1 : droplets === 2 ? 0.8 : 0.35;
       context.lineWidth = d === 0 ? 1.8 : 1;
+      context.setLineDash(droplets === 2 && d === 1 ? [4, 3] : []);
       context.beginPath();
       for (let k = 0; k < rows.length; k += stride) context.lineTo(x(rows[k][0]), y(unit * rows[k][1 + 3 * d + number]));
       context.stroke();

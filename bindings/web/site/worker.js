@@ -1,5 +1,5 @@
 // The simulation: a scene of the library in a thread of its own, which answers the page's messages.
-import init, { Engine, presets } from "./motile.js";
+import init, { Engine, presets, turned } from "./motile.js";
 
 /** Time that a turn may take before messages are read (ms). */
 const TURN = 24;
@@ -46,9 +46,9 @@ function load(scene, id) {
   frame(true);
 }
 
-/** What does not change from step to step. */
-function tell() {
-  postMessage({ kind: "about", number, about: JSON.parse(engine.about()), scene: engine.scene() });
+/** What does not change from step to step; a slider adds what becomes of the text that the reader typed. */
+function tell(text = {}) {
+  postMessage({ kind: "about", number, about: JSON.parse(engine.about()), scene: engine.scene(), ...text });
 }
 
 /** The present state. */
@@ -171,9 +171,13 @@ const acts = {
     engine.step(until);
     frame(true);
   },
-  reset: () => {
+  reset: ({ id }) => {
     playing = false;
-    load(text, number);
+    load(text, id);
+  },
+  tell: () => {
+    tell();
+    frame(true);
   },
   pace: (message) => {
     pace = message.pace;
@@ -186,13 +190,17 @@ const acts = {
     look = { ...look, ...message.look };
     if (message.fresh && engine && !playing) frame(true);
   },
-  turn: ({ knob, value }) => {
+  turn: ({ knob, value, typed }) => {
     engine.turn(knob, value);
     text = engine.scene();
-    tell();
+    try {
+      tell({ typed, box: turned(typed, knob, value) });
+    } catch (error) {
+      tell({ typed, kept: problem(error) });
+    }
     if (!playing) frame(true);
   },
-  grab: ({ x, y }) => postMessage({ kind: "grabbed", droplet: engine.droplet_at(x, y) }),
+  grab: ({ x, y }) => postMessage({ kind: "grabbed", number, droplet: engine.droplet_at(x, y) }),
   drag: ({ droplet, x, y }) => {
     engine.drag(droplet, x, y);
     if (!playing) frame(true);
@@ -221,11 +229,14 @@ const ready = init().then(
   () => postMessage({ kind: "ready", presets: JSON.parse(presets()) }),
   (error) => postMessage({ kind: "error", error: problem(error), place: "init" }),
 );
+/** Messages that are not about one scene. */
+const FREE = ["load", "reset", "pace", "until", "look", "shown"];
 onmessage = async ({ data }) => {
   await ready;
   try {
-    if (engine || ["load", "pace", "until", "look", "shown"].includes(data.kind)) acts[data.kind](data);
-    else if (data.id) throw new Error("There is no scene yet.");
+    // What is meant for another scene than the present one is left out.
+    if (FREE.includes(data.kind) || (engine && data.number === number)) acts[data.kind](data);
+    else if (data.id) throw new Error("The scene is not there yet. Try again.");
   } catch (error) {
     postMessage({ kind: "error", number: data.id ?? number, error: problem(error), place: data.kind, id: data.id });
   }

@@ -91,7 +91,7 @@ impl Engine {
     /// Data that do not change from step to step, as JSON: corner, periods and walls of the region, whether it is of
     /// revolution, mean concentrations, knobs with their labels, ranges and values, the error of the settings,
     /// whether there is a map of speeds, and Cowley's units: a length of 1 in um, a time of 1 in s, an activity of 1 in
-    /// pN.
+    /// pN, a pressure of 1 in Pa.
     #[must_use]
     pub fn about(&self) -> String {
         let setup = self.live.described();
@@ -100,7 +100,7 @@ impl Engine {
             let ([least, most], logarithmic) = knob.range(setup);
             let (value, label) = (knob.value(setup)?, knob.label(setup));
             Some(json!({ "name": name, "label": label, "least": least.min(value), "most": most.max(value),
-                         "logarithmic": logarithmic, "value": value }))
+                         "step": if logarithmic { 0.0 } else { knob::STEP }, "value": value }))
         });
         let droplet = setup.droplets.first().or(setup.suspension.first().map(|entry| &entry.droplet));
         let concentration = droplet.and_then(|droplet| droplet.particles.as_ref()).map(|all| all.concentration);
@@ -211,10 +211,14 @@ impl Engine {
         Way::named(way).and_then(|way| way.text(self.live.described(), until)).map_err(thrown)
     }
 
-    /// Warnings so far, as a JSON list.
+    /// Doubts about the states since the last change of a parameter, as a JSON list.
     #[must_use]
     pub fn warnings(&self) -> String {
-        json!(self.live.warnings()).to_string()
+        let told = |live::Doubt { warning, until, present }: &live::Doubt| {
+            json!({ "body": warning.body, "cause": warning.cause, "message": warning.message, "until": until,
+                    "present": present })
+        };
+        self.live.doubts().iter().map(told).collect::<serde_json::Value>().to_string()
     }
 
     /// Goes on with another value of a parameter.

@@ -2,7 +2,7 @@
 
 use motile::active_interface::ActiveDroplet;
 use motile::base::{Region, Vec2, boxes::nearest_image, internal::decimals, polygon};
-use motile::scene::{Body, Handle, SceneError, Warnings};
+use motile::scene::{Body, Handle, SceneError, Warning};
 use motile::setup::{Built, Setup};
 use motile_output::{CsvTable, DropletMeter, Look, Raster, Snapshot};
 
@@ -37,7 +37,18 @@ pub struct Live {
     interval: f64,
     /// Intervals that have been reached.
     reached: f64,
-    warnings: Warnings,
+    doubts: Vec<Doubt>,
+}
+
+/// Doubt about states since the last change of a parameter, one for each cause.
+#[derive(Debug, Clone)]
+pub struct Doubt {
+    /// The worst warning.
+    pub warning: Warning,
+    /// Last time of a record that it is about (time).
+    pub until: f64,
+    /// True if it is about the last record.
+    pub present: bool,
 }
 
 impl Live {
@@ -48,6 +59,9 @@ impl Live {
     pub fn new(described: Setup) -> Result<Self, Refusal> {
         let placed = described.placed()?;
         let built = placed.build()?;
+        if built.scene.system().all_bodies().next().is_none() {
+            return Err(Refusal::plain("the scene has no droplet. Add a line to the text: [[droplets]]"));
+        }
         let interval = ROW * placed.time_scale();
         let mut live = Self {
             described,
@@ -57,7 +71,7 @@ impl Live {
             rows: Vec::new(),
             interval,
             reached: -1.0,
-            warnings: Warnings::default(),
+            doubts: Vec::new(),
         };
         live.measure()?;
         live.record()?;
@@ -98,6 +112,9 @@ impl Live {
     pub fn step(&mut self, end: Option<f64>) -> Result<bool, Refusal> {
         let before = self.steps();
         let end = end.unwrap_or(FOREVER * self.placed.time_scale());
+        if end <= self.time() {
+            return Ok(false);
+        }
         match self.built.scene.run(end).most_steps(1).go() {
             Ok(()) | Err(SceneError::TooManySteps { .. }) => {}
             Err(error) => return Err(error.into()),
@@ -116,8 +133,8 @@ impl Live {
             return Ok(());
         }
         self.reached = reached;
+        self.doubt();
         let system = self.built.scene.system_mut();
-        self.warnings.look(system);
         for meter in &self.meters {
             let record = meter.record(system)?;
             self.rows.extend(meter.row(&record));
@@ -130,6 +147,22 @@ impl Live {
             self.reached = (self.time() / self.interval + 1e-9).floor();
         }
         Ok(())
+    }
+
+    /// Looks for doubts about the present state.
+    fn doubt(&mut self) {
+        let (found, time) = (self.built.scene.system_mut().warnings(), self.time());
+        self.doubts.iter_mut().for_each(|doubt| doubt.present = false);
+        for warning in found {
+            let doubt = Doubt { warning, until: time, present: true };
+            match self.doubts.iter_mut().find(|known| known.warning.cause == doubt.warning.cause) {
+                Some(known) if known.warning.excess > doubt.warning.excess => {
+                    (known.until, known.present) = (time, true);
+                }
+                Some(known) => *known = doubt,
+                None => self.doubts.push(doubt),
+            }
+        }
     }
 
     fn record_size(&self) -> usize {
@@ -197,10 +230,10 @@ impl Live {
         Ok(Some(scene.observe(droplet)?.speed()))
     }
 
-    /// Warnings so far, the worst of each kind.
+    /// Doubts about the states since the last change of a parameter.
     #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        self.warnings.worst().iter().map(|(_, warning)| warning.to_string()).collect()
+    pub fn doubts(&self) -> &[Doubt] {
+        &self.doubts
     }
 
     /// Goes on with another value of a parameter, from the present state.
@@ -212,6 +245,7 @@ impl Live {
         let mut built = placed.build()?;
         built.scene.take_over(&self.built.scene.checkpoint(""))?;
         (self.described, self.placed, self.built) = (described, placed, built);
+        self.doubts.clear();
         self.measure()
     }
 

@@ -270,6 +270,43 @@ fn sliders_write_round_numbers() {
     assert_eq!(Knob::Activity.value(&turned), Some(-2.8));
 }
 
+/// With no activity at once, a crowd pushes the surface apart until it has spread; the doubt goes by itself and with the
+/// next change.
+#[test]
+fn doubts_go_with_their_cause() {
+    let crowded = |end: f64| {
+        let mut live = Live::new(preset("swimmer")).expect("a scene");
+        while live.step(Some(6.0)).expect("a step") {}
+        assert!(live.doubts().is_empty(), "{:?}", live.doubts());
+        live.turn(Knob::Activity, 0.0).expect("a scene");
+        while live.step(Some(end)).expect("a step") {}
+        let [doubt] = live.doubts() else { panic!("{:?}", live.doubts()) };
+        assert_eq!(doubt.warning.cause, "tension negative");
+        (doubt.present, doubt.until, live)
+    };
+    let (present, until, mut live) = crowded(6.2);
+    assert!(present && (until - 6.2).abs() < 0.06, "{until}");
+    live.turn(Knob::Activity, -3.0).expect("a scene");
+    assert!(live.doubts().is_empty());
+    let (present, until, live) = crowded(20.0);
+    assert!(!present && until < 15.0, "{until}");
+    assert_eq!(live.time(), 20.0);
+}
+
+#[test]
+fn times_that_have_gone_are_the_end_and_scenes_have_bodies() {
+    let mut live = Live::new(small()).expect("a scene");
+    while live.step(Some(1.0)).expect("a step") {}
+    for end in [0.5, -3.0, f64::NEG_INFINITY] {
+        assert!(!live.step(Some(end)).expect("no step"), "{end}");
+    }
+    assert!(live.step(None).expect("a step"));
+    for text in ["", "# nothing", "viscosity = 2.0"] {
+        let refused = Live::new(Setup::from_toml(text).expect("a text")).expect_err("no droplet");
+        assert!(refused.message.contains("has no droplet"), "{refused}");
+    }
+}
+
 #[test]
 fn sixteen_go_on_with_another_activity() {
     let mut live = Live::new(preset("sixteen")).expect("a scene");

@@ -40,7 +40,7 @@ try {
   if (key !== "viscosity" || !remedy) throw new Error(`an error without key and remedy: ${error}`);
 }
 // Errors in words for people: where, what, and what to do.
-const { plain } = await import(pathToFileURL(resolve(folder, "problem.js")));
+const { doubt, plain } = await import(pathToFileURL(resolve(folder, "problem.js")));
 for (const [text, ...words] of [
   ["viscosity = -1.0", "“viscosity = -1” is not possible.", "Use a positive finite number."],
   ["viscosty = 1.0", "Line 1 (viscosty = 1.0)", "no key “viscosty”", "Did you mean “viscosity”?"],
@@ -53,6 +53,8 @@ for (const [text, ...words] of [
   ["region = 'spce'", "no choice “spce”", "Did you mean “space”?"],
   ["region.box.lengths = [1.5, 1.5]\n[[droplets]]", "Droplet 1", "does not fit", "enlarge the region"],
   ["[[droplets]]\n[[droplets]]", "Droplet 2 overlaps droplet 1"],
+  ["[[droplets]]\nparticles.activity = -30.0", "“particles.activity = -30” of droplet 1 is not possible."],
+  ["viscosity = 2.0", "The scene has no droplet. Add a line to the text"],
 ]) {
   let told = "";
   try {
@@ -61,8 +63,63 @@ for (const [text, ...words] of [
     told = plain(JSON.parse(error));
   }
   for (const word of words) if (!told.includes(word)) throw new Error(`the error of ${text} is ${told}, without ${word}`);
-  if (/[\[\]{}|^`]/.test(told.replace(/\(.*?\)/, ""))) throw new Error(`the error of ${text} has marks: ${told}`);
+  if (/[\]{}|^`]/.test(told.replace(/\(.*?\)/, "").replace("[[droplets]]", ""))) throw new Error(`the error of ${text} has marks: ${told}`);
 }
+// What ends a run, and what is doubtful about it: no words of programmers, and what to do on the page.
+const PROGRAMMERS = /marker|P[eé]clet|body \d|time step|grid|residual|iterations|interface|\d{6}|undefined|NaN/;
+const clear = (told, word) => {
+  if (!told.includes(word) || PROGRAMMERS.test(told)) throw new Error(`in other words than ${word}: ${told}`);
+};
+const coarse = (name) => known.find((one) => one.name === name).scene.replace(/nodes = .*\}/, "nodes = 24, elements = 64 }");
+for (const [text, droplets, error, ...doubts] of [
+  [
+    coarse("meeting").replace(/repulsion.*/, "").replaceAll("-4.0", "-7.0"),
+    2,
+    "droplet 1 has crossed droplet 2 at (",
+    "The edge of the crowd on droplet 1 is too sharp",
+    "The gap between droplet 2 and droplet 1 is 0.",
+    "The stresslet of droplet 1 is uncertain",
+  ],
+  [
+    coarse("swimmer").replace("-3.0", "8.0"),
+    1,
+    ", the outline of the droplet crosses itself at (",
+    "Choose an activity nearer to 0.",
+    "The edge of the crowd on the droplet is too sharp",
+  ],
+]) {
+  const failing = new Engine(text);
+  let told = "";
+  try {
+    while (failing.step(60)) {
+      // Until it fails.
+    }
+  } catch (thrown) {
+    told = plain(JSON.parse(thrown), true, droplets);
+  }
+  clear(told, error);
+  clear(told, "Press R to restart. Then move the slider “Activity” towards 0");
+  const found = JSON.parse(failing.warnings()).map((one) => doubt(one, droplets === 1 ? 8 : -7, droplets));
+  for (const word of doubts) clear(found.find((one) => one.includes(word)) ?? found.join(), word);
+  failing.free();
+}
+// Messages of the library that its runs here do not give.
+for (const [message, word] of [
+  ["at time 3.2 droplet went wrong: marker coordinate number 3 is NaN. Use a smaller time step", "no longer made of numbers."],
+  ["the position of marker 3 of body 0 is (NaN, 0), so the run has failed. Use a smaller time step", "outline of droplet 1"],
+  ["a curve of body 1 has 8 points. Use a number from 16 to 4096", "A curve of the body inside has 8 points."],
+  [
+    "at time 1 the flow could not be computed: GMRES stopped at a relative residual of 1e-3 after 9 iterations, above " +
+      "1e-9. If a gap has become too narrow, or a body is too slender for its nodes, use more nodes",
+    "its equations have no accurate solution here.",
+  ],
+  [
+    "at time 9.123456 the time step would have to fall to 1e-12, below the minimum of 1e-9. Use a larger tolerance, or " +
+      "refine the grid and the markers",
+    "At t = 9.12, the droplets change too fast to be followed.",
+  ],
+])
+  clear(plain({ message }, true, 1), word);
 // Links of the page's own text, and links to scenes with what messages add, or cut.
 const page = readFileSync(join(folder, "index.html"), "utf8");
 for (const [, address] of page.matchAll(/(?:href|src)="([^"#][^"#]*)/g)) {

@@ -248,6 +248,205 @@ async function whole({ name, ...view }) {
   return first;
 }
 
+/** What readers stumbled over once. */
+async function faults() {
+  const { context, page, problems } = await visit({ width: 1280, height: 800, touch: false, scheme: "light" });
+  const note = (words, name) =>
+    until(page, `${name}: no note of ${words}`, (words) => document.getElementById("note").textContent.includes(words), words);
+  const box = () => page.inputValue("#scene");
+  const set = (name, value) =>
+    page.evaluate(
+      ([name, value]) => {
+        const slider = document.getElementById(`knob-${name}`);
+        slider.value = value;
+        slider.dispatchEvent(new Event("input"));
+      },
+      [name, value],
+    );
+  const value = (name, text) =>
+    until(
+      page,
+      `${name} is not ${text}`,
+      ([name, text]) => document.querySelector(`output[for=knob-${name}]`).textContent.startsWith(text),
+      [name, text],
+    );
+
+  // Of many scenes in a row, the last one is begun, and none is shown under the name of another.
+  await page.evaluate(() => {
+    const { postMessage } = Worker.prototype;
+    window.begun = [];
+    Worker.prototype.postMessage = function (message, ...rest) {
+      if (message.kind === "load") window.begun.push(message.scene);
+      return postMessage.call(this, message, ...rest);
+    };
+    window.mixed = [];
+    const look = () => {
+      const { preset, droplets, stale } = window.motile.shown();
+      if (!stale && droplets !== ({ meeting: 2, sixteen: 16 }[preset] ?? 1)) window.mixed.push([preset, droplets]);
+      requestAnimationFrame(look);
+    };
+    look();
+    const buttons = document.querySelectorAll("#presets button");
+    for (let k = 0; k < 21; k += 1) buttons[(k * 3) % 7].click();
+  });
+  await page.click("[data-name=meeting]");
+  await until(page, "no scene after many", () => {
+    const { preset, stale, droplets } = window.motile.shown();
+    return preset === "meeting" && !stale && droplets === 2;
+  });
+  const begun = await page.evaluate(() => window.begun);
+  check(begun.length <= 3 && begun.at(-1).includes("# Two droplets"), `${begun.length} scenes were begun`);
+  const mixed = await page.evaluate(() => window.mixed);
+  check(mixed.length === 0, `scenes are mixed: ${JSON.stringify(mixed.slice(0, 3))}`);
+
+  // Two droplets: both speeds, and the gap between them.
+  await page.evaluate(() => window.motile.go({ time: 3 }));
+  await until(page, "the speeds of two are not shown", () =>
+    /^1: 0\.19\d, 2: 0\.09\d µm\/s$/.test(document.querySelector(".plot output").textContent),
+  );
+  await until(page, "no gap", () => /1 and 2\d\.\d+ \(\d+\.\d+ µm\)$/.test(document.getElementById("gap").textContent));
+  await shot(page, "two");
+
+  // A link to a changed scene brings its question.
+  await set("activity", -70);
+  await value("activity", "−3.5");
+  await page.click("#run");
+  await until(page, "the scene does not run", () => !window.motile.shown().stale);
+  check(await page.isVisible("#question"), "a changed scene has lost its question");
+  await page.click("#link");
+  await until(page, "no link with a question", () => /^#s=.*&p=meeting$/.test(location.hash));
+  const other = await visit({
+    width: 1280,
+    height: 800,
+    touch: false,
+    scheme: "light",
+    path: await page.evaluate(() => location.hash),
+  });
+  await until(other.page, "the link brings no question", () =>
+    document.getElementById("question").textContent.includes("five times as viscous"),
+  );
+  await other.context.close();
+  await page.evaluate(() => (location.hash = "#p=tube"));
+  await until(page, "a link to a preset brings no question", () =>
+    document.getElementById("question").textContent.includes("tube radius"),
+  );
+  await until(page, "the tube is not there", () => !window.motile.shown().stale);
+
+  await page.click('nav a[href="#story"]');
+  await page.waitForTimeout(300);
+  check((await page.evaluate(() => window.motile.shown().preset)) === "tube", "a link within the page changes the scene");
+
+  // Steps of sliders, and the text that the reader typed.
+  await set("size", 25);
+  await value("size", "1.25");
+  await until(page, "no radius in the text", () => document.getElementById("scene").value.includes("radius = 1.25\n"));
+  check((await box()).startsWith("# Three dimensions"), `the comment is lost: ${await box()}`);
+  await set("viscosity-ratio", 700);
+  await value("viscosity-ratio", "2.51");
+  await until(page, "no viscosity in the text", () => document.getElementById("scene").value.includes("viscosity = 251.0\n"));
+  await page.fill("#scene", (await box()) + "# mine\n");
+  await set("activity", -40);
+  await value("activity", "−2");
+  await until(page, "no activity in the text", () => document.getElementById("scene").value.includes("activity = -2.0\n"));
+  check((await box()).includes("# mine"), "the reader's text is lost");
+  await page.fill("#scene", "no scene");
+  await set("activity", -30);
+  await note("but not on your text below", "a text with a mistake");
+  check((await box()) === "no scene", "the reader's text is lost");
+  await page.fill("#scene", " \n# nothing\n");
+  await page.click("#run");
+  await until(page, "an empty text runs", () =>
+    document.getElementById("problem").textContent.startsWith("There is no scene in the box."),
+  );
+  // Behind a scene that is still beginning: that one is shown.
+  await page.fill("#scene", "viscosity = 2.0");
+  await page.evaluate(() => {
+    const text = document.getElementById("scene").value;
+    document.querySelector("[data-name=sixteen]").click();
+    document.getElementById("scene").value = text;
+    document.getElementById("run").click();
+  });
+  await until(page, "a scene without droplets runs", () =>
+    document.getElementById("problem").textContent.includes("has no droplet. Add a line"),
+  );
+  await until(page, "the scene before is not shown", () => {
+    const { preset, droplets, stale, text } = window.motile.shown();
+    return preset === "sixteen" && droplets === 16 && !stale && text.startsWith("viscosity = 2.0");
+  });
+
+  // Times to stop at.
+  await page.click("[data-name=swimmer]");
+  await steps(page, 50);
+  const time = async (text, words) => {
+    await page.fill("#until", text);
+    await page.press("#until", "Enter");
+    if (words) await note(words, text);
+    check(words ? (await page.inputValue("#until")) === "" : true, `${text} is taken`);
+  };
+  await time("-3", "Times begin at 0");
+  await time("0.001", "Give a later time, or press R");
+  await plays(page, "stop", "Pause");
+  await time("6");
+  await note("The run has reached t = 6.00 (60 s). To continue, clear", "stop");
+  await page.fill("#until", "");
+  await page.press("#until", "Enter");
+
+  // Pressures have a key.
+  check(!(await page.isVisible("#high")), "a key without pressures");
+  await page.click("[data-look=pressure]");
+  await until(page, "no key of pressures", () => /^[\d.]+ Pa$/.test(document.getElementById("high").textContent));
+  check(await page.isVisible("#low"), "the key of pressures is not shown");
+  await shot(page, "pressure");
+
+  // An activity that weakens at once: a doubt that goes by itself.
+  await set("activity", -120);
+  await value("activity", "−6");
+  await page.evaluate(() => window.motile.go({ time: 12 }));
+  await set("activity", 0);
+  await value("activity", "0");
+  await page.evaluate(() => window.motile.go({ time: 12.12 }));
+  await until(page, "no doubt about a crowd", () =>
+    document.getElementById("warnings").textContent.includes("push its surface apart. Its shape is uncertain until"),
+  );
+  await page.evaluate(() => window.motile.go({ time: 30 }));
+  await until(
+    page,
+    "the doubt does not go",
+    () =>
+      document.getElementById("warnings").textContent === "" &&
+      document.getElementById("past").textContent.startsWith("Up to t = 2"),
+  );
+  await set("activity", -20);
+  await value("activity", "−1");
+  await until(page, "the doubt is still there", () => document.getElementById("past").textContent === "");
+
+  // The whole screen has sliders.
+  for (const [width, height] of [
+    [1280, 800],
+    [390, 844],
+  ]) {
+    await page.setViewportSize({ width, height });
+    await page.click("#full");
+    for (const name of ["activity", "diffusion"]) {
+      const slider = await page.locator(`#stage #knob-${name}`).boundingBox();
+      check(
+        slider.width > 80 && slider.x >= 0 && slider.x + slider.width <= width && slider.y + slider.height <= height,
+        `${width}: no slider on the whole screen: ${JSON.stringify(slider)}`,
+      );
+    }
+    await shot(page, `full-${width}`);
+    await accessible(page);
+    await page.click("#full");
+    check(await page.isVisible("aside #knob-activity"), "the sliders do not come back");
+  }
+
+  // At rest speeds are round-off.
+  await page.evaluate(() => window.motile.load("[[droplets]]\nparticles.activity = 0.0\nparticles.start = 'uniform'\n"));
+  await until(page, "no rest", () => document.querySelector(".plot output").textContent === "0 µm/s");
+  check(problems.length === 0, problems.join("\n"));
+  await context.close();
+}
+
 try {
   const wide = await whole({ name: "wide", width: 1400, height: 900, touch: false, scheme: "light" });
   const narrow = await whole({ name: "narrow", width: 390, height: 844, touch: true, scheme: "dark" });
@@ -291,6 +490,7 @@ try {
   await shot(page, "wide-dark");
   check(problems.length === 0, problems.join("\n"));
   await context.close();
+  await faults();
   const unknown = await visit({ width: 390, height: 844, touch: false, scheme: "light", path: "#scene-of-old" });
   await until(unknown.page, "no word of a link to nothing", () =>
     document.getElementById("note").textContent.startsWith("The link names no scene"),
