@@ -12,9 +12,10 @@ use super::{Flags, held, suspension};
 use crate::book::statistics::mean;
 use crate::tables::{Measure, all_wanted};
 
-/// Nodes of the droplets, which the repulsion of all runs is made for, and half as many, which check them.
+/// Nodes of the droplets, which the repulsion of all runs is made for, and half and twice as many, which check them.
 const NODES: usize = 32;
 const COARSER: usize = 16;
+const FINER: usize = 64;
 /// Rows of the tables of a suspension, and the gap of droplets in contact (R0).
 const ROWS: f64 = 100.0;
 const CONTACT: f64 = 0.2;
@@ -40,10 +41,11 @@ struct Crowd {
 }
 
 /// Activities are in proportion to the sum of the viscosities, so that lone droplets are as far from their threshold.
-const CROWDS: [Crowd; 5] = [
+const CROWDS: [Crowd; 6] = [
     Crowd { fraction: 0.1, ..USUAL },
     Crowd { fraction: 0.5, ..USUAL },
     Crowd { fraction: 0.5, nodes: COARSER, seeds: 4, ..USUAL },
+    Crowd { fraction: 0.5, nodes: FINER, seeds: 4, ..USUAL },
     Crowd { fraction: 0.1, ..VISCOUS },
     Crowd { fraction: 0.5, ..VISCOUS },
 ];
