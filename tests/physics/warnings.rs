@@ -208,6 +208,7 @@ fn negative_tension_is_told() {
         // Half is covered, at twice the mean concentration of 100: 10 - 0.5 200 - Pi(200), Pi(200) = 100 ln 2.
         assert!(warning.message.starts_with("its tension is -1.59"), "{warning}");
         assert!((warning.excess - 16.9).abs() < 0.1, "{warning}");
+        assert!(warning.message.contains("use a weaker excluded volume"), "{warning}");
         // 10 + 0.5 200 - 100 ln 2 is 41.
         assert!(of(region, method, -0.5).is_none(), "{region:?}");
     }

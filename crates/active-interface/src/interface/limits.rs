@@ -288,19 +288,23 @@ impl ActiveInterface {
         let next = if place + 1 == count { markers[0] + Vec2::new(self.advance(), 0.0) } else { markers[place + 1] };
         let at = 0.5 * (markers[place] + next);
         let bare = self.law.tension.value(0.0).abs();
-        let crowd = if self.carries() {
+        let mut crowd = String::new();
+        let mut advice = "use an activity nearer to zero or a higher tension without particles";
+        if self.carries() {
             let [c, mean] = [self.derived.concentrations[place], self.mean_concentration()];
-            format!(", where the concentration is {c:.3e}, {:.3} times its mean", c / mean)
-        } else {
-            String::new()
-        };
+            crowd = format!(", where the concentration is {c:.3e}, {:.3} times its mean", c / mean);
+            if c > mean {
+                advice = "the crowd of particles there pushes the interface apart: use a weaker excluded volume, a \
+                          higher tension without particles, or an activity that raises the tension more; after a \
+                          change of the activity, wait until the particles have spread";
+            }
+        }
         let bends =
             if held > 0.0 { ", and its bending does not hold the shortest of them that is resolved" } else { "" };
-        let finer = if held > 0.0 { ", or more bending or nodes" } else { "" };
+        let finer = if held > 0.0 { "; more bending or nodes help as well" } else { "" };
         let message = format!(
             "its tension is {lowest:.3e} (force) near ({:.3}, {:.3}){crowd}: a line under compression has waves that \
-             grow faster the shorter they are{bends}, so that there is no solution to converge to; use an activity \
-             nearer to zero or a higher tension without particles{finer}",
+             grow faster the shorter they are{bends}, so that there is no solution to converge to; {advice}{finer}",
             at.x, at.y
         );
         let excess = 1.0 - (lowest + held) / bare;
