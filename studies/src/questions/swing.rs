@@ -5,9 +5,11 @@ use std::f64::consts::TAU;
 use anyhow::{Context, Result};
 use motile_cli::run::say;
 use motile_tests::validation::Table;
-use space_droplets::{ContractileTension, EdgeFollowing, RungeKuttaChebyshev, SpaceDroplet, StepSize, Tube};
+use space_droplets::{
+    ContractileTension, EdgeFollowing, RungeKuttaChebyshev, SpaceDroplet, SpaceDroplets, StepSize, Tube,
+};
 
-use crate::tables::Measure;
+use crate::tables::{Measure, Once};
 
 /// A tube: its radius, and the angular frequency of the instability (docs/tables/steady-tubes.csv), which separates the
 /// two circular motions; and the time between samples.
@@ -32,13 +34,14 @@ const STARTS: [Start; 3] = [
 ];
 
 /// Runs in other tubes, or further: degree, start, and how long.
-const OTHERS: [(Swing, usize, Start, f64); 6] = [
+const OTHERS: [(Swing, usize, Start, f64); 7] = [
     (WIDE, 8, ("on an ellipse", [0.4, 0.08], [0.03, 0.04]), 192.0),
-    (NARROW, 8, ("on an ellipse", [0.04, 0.008], [0.01, 0.02]), 48.0),
-    (MIDDLE, 8, ("on a wide helix", [0.3, 0.0], [0.0, 0.2]), 128.0),
-    (WIDE, 8, ("on a helix", [0.6, 0.0], [0.0, 0.2]), 192.0),
-    (NARROW, 8, ("on a helix", [0.06, 0.0], [0.0, 0.05]), 48.0),
-    (WIDE, 10, ("on an ellipse", [0.4, 0.08], [0.03, 0.04]), 96.0),
+    (WIDE, 10, ("on an ellipse", [0.4, 0.08], [0.03, 0.04]), 192.0),
+    (WIDE, 10, ("on a helix", [0.6, 0.0], [0.0, 0.2]), 384.0),
+    (MIDDLE, 12, ("on a wide helix", [0.3, 0.0], [0.0, 0.2]), 192.0),
+    (NARROW, 16, ("on an ellipse", [0.04, 0.008], [0.01, 0.02]), 192.0),
+    (NARROW, 16, ("on a helix", [0.06, 0.0], [0.0, 0.05]), 192.0),
+    (NARROW, 20, ("on an ellipse", [0.04, 0.008], [0.01, 0.02]), 24.0),
 ];
 
 /// The two circular motions at a sample.
@@ -59,7 +62,8 @@ impl Swing {
         let droplet = SpaceDroplet::shaped(degree, shape, [100.0; 2], law)?.with_particles(0.1, particles)?;
         let droplet = droplet.with_edge_following(EdgeFollowing { strength: 1.5, time: 4.0 })?;
         let droplet = droplet.with_position([place[0], place[1], 0.0])?;
-        let mut droplet = droplet.with_surroundings(Tube::new(self.radius)?.with_tolerance(1e-5)?)?;
+        let tube = Tube::new(self.radius)?.with_tolerance(1e-5)?;
+        let mut droplet = SpaceDroplets::new(vec![droplet])?.with_surroundings(tube)?;
         let (mut found, mut integrator) = (Vec::new(), RungeKuttaChebyshev::new());
         for sample in 1..=(until / self.sample).round() as usize {
             let steps = StepSize::Adaptive { tolerance: 1e-2 };
@@ -69,15 +73,15 @@ impl Swing {
                 say(error);
                 break;
             }
-            let seen = droplet.observe()?;
+            let seen = droplet.observe(0)?;
             let ([x, y, _], [u, v, _]) = (seen.position, seen.velocity);
             // Of z = a exp(i w t) + b exp(-i w t), the parts are z -+ i z'/w over 2.
             let part = |sign: f64| {
                 let (re, im) = (x + sign * v / self.frequency, y - sign * u / self.frequency);
                 0.25 * (re * re + im * im)
             };
-            let reach = droplet.mesh()?.points.iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max);
-            found.push(Sample { amplitudes: [part(1.0), part(-1.0)], gap: self.radius - reach });
+            let gap = droplet.smallest_gap(0)?.unwrap_or(f64::NAN);
+            found.push(Sample { amplitudes: [part(1.0), part(-1.0)], gap });
         }
         Ok(found)
     }
@@ -100,14 +104,12 @@ pub(super) fn swing() -> Result<Vec<Table>> {
     let mut table = Table::new("Swimmers of activity -2 and A = 4 in a tube of radius 1.5", header);
     for (degree, until) in [(8, 64.0), (10, 48.0)] {
         for start in &STARTS {
-            let mut found = Vec::new();
+            let found = Once::new();
             for part in 2..=4 {
                 let time = 0.25 * until * f64::from(part);
                 table.measure(format_args!("{degree} | {} | {time}", start.0), || {
-                    if found.is_empty() {
-                        found = MIDDLE.samples(degree, start, until)?;
-                    }
-                    let (amplitude, sense, _) = MIDDLE.measured(&found, time).context("the run ended early")?;
+                    let found = found.get(|| MIDDLE.samples(degree, start, until))?;
+                    let (amplitude, sense, _) = MIDDLE.measured(found, time).context("the run ended early")?;
                     Ok(format!("{amplitude:.3} | {sense:.2}"))
                 })?;
             }
@@ -121,15 +123,12 @@ pub(super) fn tubes() -> Result<Vec<Table>> {
     let header = "radius | degree | start | time | amplitude | sense | smallest gap";
     let mut table = Table::new("Swimmers of activity -2 and A = 4 that swing in tubes", header);
     for (tube, degree, start, until) in OTHERS {
-        let mut found = Vec::new();
+        let found = Once::new();
         for part in 1..=4 {
             let time = 0.25 * until * f64::from(part);
             table.measure(format_args!("{} | {degree} | {} | {time}", tube.radius, start.0), || {
-                if found.is_empty() {
-                    found = tube.samples(degree, &start, until)?;
-                }
-                let cells = tube.measured(&found, time);
-                let ended = "not resolved | |".to_owned();
+                let cells = tube.measured(found.get(|| tube.samples(degree, &start, until))?, time);
+                let ended = "not resolved |  | ".to_owned();
                 Ok(cells.map_or(ended, |(amplitude, sense, gap)| format!("{amplitude:.3} | {sense:.2} | {gap:.3}")))
             })?;
         }
