@@ -270,8 +270,8 @@ fn sliders_write_round_numbers() {
     assert_eq!(Knob::Activity.value(&turned), Some(-2.8));
 }
 
-/// With no activity at once, a crowd pushes the surface apart until it has spread; the doubt goes by itself and with the
-/// next change.
+/// With no activity at once, a crowd pushes the surface apart until it has spread; the doubt goes by itself and with
+/// the next change.
 #[test]
 fn doubts_go_with_their_cause() {
     let crowded = |end: f64| {
