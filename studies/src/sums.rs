@@ -92,3 +92,6 @@ fn times(
     let [unit, one, two] = [0, 1, 2].map(|work| turns.least(work));
     Ok([1e3 * one, one / unit, one / two])
 }
+
+#[cfg(test)]
+mod tests;

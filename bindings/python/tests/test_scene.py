@@ -28,7 +28,9 @@ def small(**more: object) -> motile.Setup:
 
 
 def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
-    command = "cargo run --release --quiet --features rayon --bin motile -- run examples/scenes/swimmer.toml --time 2"
+    # As the tests of the workspace are built, so that nothing is compiled twice.
+    program = "cargo run --release --quiet --workspace --features rayon --bin motile --"
+    command = f"{program} run examples/scenes/swimmer.toml --time 2"
     written = tmp_path / "scene.toml"
     keys = ["droplets.0.particles.start=polarised", "method.integral={ nodes = 32, elements = 128 }"]
     flags = ["--quiet", "--no-pictures", *(flag for key in keys for flag in ("--set", key))]

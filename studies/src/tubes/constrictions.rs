@@ -60,11 +60,11 @@ fn in_channel(closed: Drive, width: f64) -> Result<Setup> {
     let [throat_length, ramp] = THROAT;
     let data: Toml = toml::from_str(PLANE)?;
     let scene = data.get("plan").and_then(|plan| plan.get("scene")).context("no scene")?;
-    let mut setup: Setup = scene.clone().try_into()?;
+    let mut setup = Setup::from_toml(&scene.as_table().context("no scene")?.to_string())?;
     if let Region::Channel { drive, .. } = &mut setup.region {
         *drive = closed;
     }
-    let mut scene = Value::try_from(&setup)?;
+    let mut scene: Toml = setup.to_toml()?.parse()?;
     let walls = scene.get_mut("walls").and_then(Value::as_array_mut).context("no walls")?;
     for wall in walls {
         let sides = wall.get_mut("outline").and_then(Value::as_table_mut).context("no outline")?;
@@ -76,7 +76,7 @@ fn in_channel(closed: Drive, width: f64) -> Result<Setup> {
             }
         }
     }
-    Ok(scene.try_into()?)
+    Ok(Setup::from_toml(&scene.to_string())?)
 }
 
 /// Runs a scene: true where the droplet passes the place `beyond` (R0), and where the run ended in an error.
