@@ -434,6 +434,9 @@ def test_a_single_measurement_and_progress(capsys: pytest.CaptureFixture[str]) -
     assert result.values == motile.fit(swimmer(), {ACTIVITY: (-0.9, -0.5)}, [one]).values
     result.profile(ACTIVITY)
     assert not capsys.readouterr().err
+    assert motile.fit(swimmer(), {ACTIVITY: (-0.9, -0.5)}, one, progress=True).values == result.values
+    last = re.findall(r"(\d+) evaluations, lowest chi2 = ([-+.\de]+)", capsys.readouterr().err)[-1]
+    assert int(last[0]) > 2 and float(last[1]) == pytest.approx(result.chi2, abs=1e-3)
     result.profile(ACTIVITY, progress=True)
     shown = [float(part) for part in re.findall(r"percent = ([\d.]+) of 100", capsys.readouterr().err)]
     assert len(shown) > 1 and shown == sorted(shown) and shown[-1] == 100

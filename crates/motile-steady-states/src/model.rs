@@ -251,7 +251,11 @@ impl Model {
             return refuse("a rigid body is no disc, or has a force or torque", "Use a disc without force and torque");
         };
         let (DropletShape::Round { radius } | DropletShape::Squeezed { radius, .. }) = *shape else {
-            return refuse("the droplet is neither round nor a squeezed circle", "Use a round droplet");
+            let remedy = match shape.radius() {
+                Ok(radius) => format!("Use a round droplet of the same area, of radius {radius:.4}"),
+                Err(_) => "Use a round droplet".to_owned(),
+            };
+            return refuse("the droplet is neither round nor a squeezed circle", &remedy);
         };
         let nodes = method.nodes - method.nodes % 2;
         let settings = Settings { nodes, tolerance: TOLERANCE, ..Settings::default() };

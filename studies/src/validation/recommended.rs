@@ -5,6 +5,7 @@ use motile::SceneKind;
 use motile::base::Region;
 use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
+use motile_steady_states::SteadyState;
 use motile_tests::validation::Table;
 use motile_tests::validation::headings::{course, off_axis};
 use motile_tests::validation::scene::{open_channel, reference, without_grid};
@@ -15,6 +16,9 @@ use crate::validation::{Tables, per_cent};
 const WINDOW: [f64; 2] = [40.0, 80.0];
 /// Steps of the runs that others are compared with.
 const EXACT: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
+/// How far the reference is from a state by Newton's method with these nodes and elements is a row of its own, if the
+/// droplet swims along the axis.
+const NEWTON: (usize, usize) = (128, 1024);
 /// Between two looks: no multiple of the time in which a swimmer crosses a cell.
 const EVERY: f64 = 0.8;
 
@@ -112,6 +116,18 @@ pub(crate) fn recommended() -> Tables {
                 found.get(|| late(&Setup { method, step: EXACT, ..scene.clone() }))
             };
             let mean = |speeds: &[f64]| speeds.iter().sum::<f64>() / speeds.len() as f64;
+            if kind == SceneKind::Box && name.contains("heading 0, 0 h") {
+                let (nodes, elements) = NEWTON;
+                let method = Method::Integral(IntegralMethod { nodes, elements });
+                table.measure(
+                    format_args!("{kind:?} | Newton, {nodes} nodes, {elements} elements | {name}"),
+                    || {
+                        let state = SteadyState::find(&Setup { method, ..scene.clone() })?;
+                        let error = state.measured()?.speed / mean(exact()?) - 1.0;
+                        Ok([error, error.abs()].map(per_cent).join(" | "))
+                    },
+                )?;
+            }
             for (settings, method, step) in settings(kind) {
                 let mut setup = Setup { method, step, ..scene.clone() };
                 if let Method::Grid(grid) = method {

@@ -20,7 +20,7 @@ from ._fit_model import COVERED, Free, Group, Measurement, Model, seen_of
 from ._least_squares import Minimum, least_squares
 from ._measured import Measured, MeasuredConcentration, MeasuredModes, MeasuredOutline, MeasuredRun, Seen
 from ._optional import needed, write_parquet
-from ._progress import Bar
+from ._progress import Bar, Search
 from ._scene import FilePath
 
 if TYPE_CHECKING:
@@ -425,6 +425,8 @@ def fit(
     setup: Setup,
     parameters: Mapping[str, Free | tuple[float, float]],
     measurements: Sequence[Measurement] | Measurement,
+    *,
+    progress: bool = False,
 ) -> FitResult:
     """Fits numbers of a setup to measurements, by least squares.
 
@@ -438,7 +440,8 @@ def fit(
 
     The fit minimises the sum of the squares of (measured - computed)/error, of data and priors, with the sensitivities
     of steady states as derivatives. Keys without sensitivities, and runs, are differentiated by differences. Then it
-    looks for a lower chi2 at 1 error from the best values. It continues from there if it finds one.
+    looks for a lower chi2 at 1 error from the best values. It continues from there if it finds one. In narrow channels
+    or with several parameters, that can take minutes: with `progress=True`, you see evaluations and the lowest chi2.
 
     `remarks` of the result say, for example, if the search did not reach a minimum, if the setup does not describe the
     data, if an outline has another size than the droplet, or if the fitted swimmer is unstable.
@@ -463,6 +466,7 @@ def fit(
             remedy = "Use motile.Measured, MeasuredOutline, MeasuredModes, MeasuredConcentration or MeasuredRun"
             raise Error(f"{item!r} is no measurement. {remedy}", key="measurements", value=repr(item), remedy=remedy)
     model = Model(setup, free, measurements)
+    model.progress = Search() if progress else None
     count, data = len(free), model.count - model.eliminated
     if count > data + len(model.priors):
         remedy = "Measure more, fit fewer parameters, or give priors: motile.Free(lower, upper, prior=(mean, error))"
@@ -480,6 +484,9 @@ def fit(
             break
         best = _searched(model, near.lower)
         near = _surroundings(model, best)
+    if model.progress:
+        model.progress.close(0.0)
+        model.progress = None
     return _result(model, best, near)
 
 

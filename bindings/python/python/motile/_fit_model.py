@@ -14,6 +14,7 @@ from . import _motile
 from ._curve import Array, Curve
 from ._error import Error
 from ._measured import OBSERVABLES, Measured, MeasuredRun, Seen, Steady, eliminated
+from ._progress import Search
 
 Setup = _motile.Setup
 Measurement = Steady | MeasuredRun
@@ -110,6 +111,7 @@ class Model:
         self.eliminated = sum(len(item.start) for group in self.groups for item in group.items)
         self.priors = [k for k, entry in enumerate(free.values()) if entry.prior]
         self.remarks: set[str] = set()
+        self.progress: Search | None = None
         self._known: dict[bytes, tuple[Array, list[_motile.SteadyState]]] = {}
         self._first: list[_motile.SteadyState] = []
         self.failure = ""
@@ -122,7 +124,7 @@ class Model:
 
     def __getstate__(self) -> dict[str, Any]:
         # Steady states cannot be pickled: they are found anew.
-        return {**self.__dict__, "_known": {}, "_first": []}
+        return {**self.__dict__, "_known": {}, "_first": [], "progress": None}
 
     def at(self, values: Array, changes: Mapping[str, Any]) -> Setup:
         """Setup of values of the parameters under the conditions of a measurement."""
@@ -181,6 +183,8 @@ class Model:
         found = np.concatenate(parts)
         if not np.all(np.isfinite(found)):
             raise Error("a measured number has no value at these parameters. Use narrower bounds")
+        if self.progress:
+            self.progress(float(found @ found))
         return found
 
     def near(self, values: Array) -> Array | None:

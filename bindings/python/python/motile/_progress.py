@@ -40,13 +40,32 @@ class Bar:
 
     def _show(self, value: float) -> None:
         self._shown = clock.monotonic()
+        self._write(self._text(value))
+
+    def _write(self, text: str) -> None:
         if self._handle is not None:
-            self._handle.update({"text/plain": self._text(value)}, raw=True)
+            self._handle.update({"text/plain": text}, raw=True)
         else:
-            print(f"\r{self._text(value)}\x1b[K", end="", file=sys.stderr, flush=True)
+            print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
 
     def close(self, value: float) -> None:
         """Shows the last value and ends the line."""
         self._show(value)
         if self._handle is None:
             print(file=sys.stderr)
+
+
+class Search(Bar):
+    """Progress of a search whose length nobody knows: how often it evaluated, and the lowest chi2 that it found."""
+
+    def __init__(self) -> None:
+        self._count, self._lowest = 0, float("inf")
+        super().__init__(0.0, 0.0)
+
+    def _text(self, value: float) -> str:
+        return f"{self._count} evaluations, lowest chi2 = {self._lowest:.4g}" if self._count else "search begins"
+
+    def __call__(self, value: float) -> None:
+        """Counts an evaluation with this chi2."""
+        self._count, self._lowest = self._count + 1, min(self._lowest, value)
+        super().__call__(value)

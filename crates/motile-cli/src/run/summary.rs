@@ -17,10 +17,10 @@ pub(crate) const ORIGIN_KEY: &str = "origin";
 /// use motile_cli::run::Summary;
 ///
 /// let mut summary = Summary::default();
-/// summary.put("speed", 0.138_612_3, "of the centroid (R0/T)");
+/// summary.put("speed", 0.138_612_3, "of the centroid (length/time)");
 /// summary.put("beta", f64::NAN, "B2/|B1|");
 /// assert_eq!(summary.json(), "{\n  \"speed\": 0.1386123,\n  \"beta\": null\n}\n");
-/// assert!(summary.table().contains("speed  0.138612     of the centroid (R0/T)"));
+/// assert!(summary.table().contains("speed  0.138612     of the centroid (length/time)"));
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Summary {

@@ -324,7 +324,7 @@ impl<'a> Diagram<'a> {
             }
             plot
         };
-        let mut speeds = panel("speed", "speed (R_{0}/T)");
+        let mut speeds = panel("speed", "speed (length/time)");
         for kind in [SpecialKind::Fold, SpecialKind::BranchPoint, SpecialKind::Hopf] {
             let of_kind = self.special.rows().iter().filter(|row| row[0] == f64::from(kind as u8));
             let points: Vec<(f64, f64)> = of_kind.map(|row| (row[1], row[2])).collect();
@@ -333,7 +333,7 @@ impl<'a> Diagram<'a> {
             }
         }
         let figure = Figure::new(1).of_origin(&self.origin).panel(speeds);
-        let figure = figure.panel(panel("growth_rate", "leading growth rate (1/T)"));
+        let figure = figure.panel(panel("growth_rate", "leading growth rate (1/time)"));
         figure.write(out, "diagram")?;
         let mut summary = Summary::default();
         summary.put(ORIGIN_KEY, self.origin, "of the results");

@@ -46,33 +46,33 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     let Measured { speed, stresslet, aspect_ratio, concentration, centroid, .. } = state.measured()?;
     let leading = spectrum.leading();
     let mut summary = Summary::default();
-    summary.put("speed", speed, "of the centroid (R0/T)");
-    summary.put("velocity", state.velocity().to_array().to_vec(), "of the centroid (R0/T)");
-    summary.put("turning_rate", state.turning_rate(), "of the droplet, counter-clockwise (radians/T)");
+    summary.put("speed", speed, "of the centroid (length/time)");
+    summary.put("velocity", state.velocity().to_array().to_vec(), "of the centroid (length/time)");
+    summary.put("turning_rate", state.turning_rate(), "of the droplet, counter-clockwise (radians/time)");
     let core_offset = state.profile().nuclei.first().map(|place| (*place - centroid).to_array().to_vec());
-    summary.put("core_offset", core_offset, "of the nucleus from the centroid (R0)");
+    summary.put("core_offset", core_offset, "of the nucleus from the centroid (length)");
     summary.put("stresslet", stresslet, "along the motion");
     summary.put("aspect_ratio", aspect_ratio, "along over across the motion, from area moments; at rest x over y");
     summary.put("c_max", concentration[0], "largest concentration (c0)");
     summary.put("c_min", concentration[1], "smallest concentration (c0)");
     summary.put("stability", spectrum.stability().name(), "by the error of growth rates");
     summary.put("stable", spectrum.stability().decided(), "no disturbance grows; not defined if that is undecided");
-    summary.put("leading_growth_rate", leading.map(|mode| mode.value.re), "of the leading mode (1/T)");
-    summary.put("leading_frequency", leading.map(|mode| mode.value.im), "of the leading mode (radians/T)");
+    summary.put("leading_growth_rate", leading.map(|mode| mode.value.re), "of the leading mode (1/time)");
+    summary.put("leading_frequency", leading.map(|mode| mode.value.im), "of the leading mode (radians/time)");
     summary.put("leading_symmetry", leading.map(|mode| mode.symmetry.name()), "at the x axis");
     let rates: Vec<f64> = spectrum.modes.iter().take(LEADING).map(|mode| mode.value.re).collect();
-    summary.put("growth_rates", rates, "of the leading modes (1/T); all are in spectrum.csv");
+    summary.put("growth_rates", rates, "of the leading modes (1/time); all are in spectrum.csv");
     summary.put("unstable_modes", spectrum.unstable(), "growing disturbances");
     if let Ok(guidance) = state.guidance() {
         let about = "turning rate over the slope of the activity across the way";
         summary.put("turning_by_gradient", guidance.turning, about);
         summary.put("speed_by_gradient", guidance.speed, "change of the speed over the slope along the way");
-        let about = "of the heading by the noise of the particles at strength 1 (1/T)";
+        let about = "of the heading by the noise of the particles at strength 1 (1/time)";
         summary.put("rotational_diffusion", guidance.rotational_diffusion, about);
     }
     let gap = state.wall_gap();
-    summary.put("wall_gap", gap, "smallest distance of the nodes from the walls (R0)");
-    summary.put("residual", state.residual(), "largest rate of change left (1/T)");
+    summary.put("wall_gap", gap, "smallest distance of the nodes from the walls (length)");
+    summary.put("residual", state.residual(), "largest rate of change left (1/time)");
     let origin = format!("{}; command: {}", setup.origin(), command());
     summary.put(ORIGIN_KEY, origin.as_str(), "of the results");
     summary.put("iterations", state.iterations(), "of Newton's method");
@@ -80,9 +80,9 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     summary.put(
         "growth_rate_error",
         spectrum.error,
-        "of growth rates (1/T); if stability is undecided, use more nodes",
+        "of growth rates (1/time); if stability is undecided, use more nodes",
     );
-    summary.put("neutral_rate", spectrum.neutral, "of rigid motions, which should have none (1/T)");
+    summary.put("neutral_rate", spectrum.neutral, "of rigid motions, which should have none (1/time)");
     summary.put("tail", state.tail(), "of Fourier modes: if above 1e-3, use more nodes");
     summary.put("seconds", seconds, "on one core");
     make_directory(out)?;
@@ -110,7 +110,10 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     }
     let rate = leading.map_or(f64::NAN, |mode| mode.value.re);
     let verdict = spectrum.stability().name();
-    say(format_args!("{verdict}: the leading growth rate is {rate:.3e} with an error of {:.0e} (1/T)", spectrum.error));
+    say(format_args!(
+        "{verdict}: the leading growth rate is {rate:.3e} with an error of {:.0e} (1/time)",
+        spectrum.error
+    ));
     say(format_args!("results in {}", out.display()));
     Ok(())
 }

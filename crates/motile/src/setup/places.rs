@@ -95,13 +95,17 @@ impl Setup {
         if fits {
             return Ok(());
         }
-        let hint = self.droplets.get(body).map(|droplet| self.mixed_units(droplet)).unwrap_or_default();
+        let droplet = self.droplets.get(body);
+        let mut hint = droplet.map(|droplet| self.mixed_units(droplet)).unwrap_or_default();
+        if droplet.is_some_and(|droplet| matches!(droplet.shape, DropletShape::Outline(_))) {
+            hint.insert_str(0, ". If the outline is in other units than the region, set its scale");
+        }
         Err(SetupError::NoRoom { length, width, hint }.of(&self.key(body)))
     }
 
     /// Names the defaults, which are in units of a radius of 1, of a droplet of quite another radius.
     pub(super) fn mixed_units(&self, droplet: &DropletSetup) -> String {
-        let (&DropletShape::Round { radius }, Some(particles)) = (&droplet.shape, &droplet.particles) else {
+        let (Ok(radius), Some(particles)) = (droplet.shape.radius(), &droplet.particles) else {
             return String::new();
         };
         let usual = Particles::default();

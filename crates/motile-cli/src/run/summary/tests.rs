@@ -22,12 +22,12 @@ fn files_keep_order_and_come_back() {
 #[test]
 fn tables_are_aligned() {
     let mut summary = Summary::default();
-    summary.put("speed", 0.138_612_345, "R0/T");
+    summary.put("speed", 0.138_612_345, "length/time");
     summary.put("steps", 12_000_usize, "time steps");
     summary.put("steady", json!({ "reached": true, "time": null }), "");
     let table = summary.table();
     let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines[0], "  speed   0.138612        R0/T");
+    assert_eq!(lines[0], "  speed   0.138612        length/time");
     assert_eq!(lines[1], "  steps   12000           time steps");
     assert_eq!(lines[2], "  steady  reached: yes, time: not defined");
 }
