@@ -3,7 +3,8 @@
 use super::{Dynamics, Integrator, IntegratorWork};
 use crate::{SceneError, saved_state::SavedState};
 
-/// Between the 1/24 of a rate that depends on time alone and the 1/6 of a decay.
+/// Between the 1/24 of a rate that depends on time alone and the 1/6 of a decay. The estimate has the error of the step
+/// in it too, so it is 2.4 and 1.2 times the true error of these two (docs/explanation/time-stepping.md).
 const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 
 /// The midpoint rule (Cowley (2.37)), second order, two evaluations per step, with the bodies' implicit parts by
