@@ -29,7 +29,9 @@ def small(**more: object) -> motile.Setup:
 
 def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
     # As the tests of the workspace are built, so that nothing is compiled twice.
-    program = "cargo run --release --quiet --workspace --features rayon --bin motile --"
+    build = "cargo build --release --quiet --workspace --features rayon --bin motile"
+    subprocess.run(build.split(), cwd=ROOT, check=True)
+    program = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "motile"
     command = f"{program} run examples/scenes/swimmer.toml --time 2"
     written = tmp_path / "scene.toml"
     keys = ["droplets.0.particles.start=polarised", "method.integral={ nodes = 32, elements = 128 }"]
