@@ -50,8 +50,7 @@ impl Outline {
     /// Returns an error for fewer than three corners, corners that are not finite or coincide with the next.
     pub fn polygon(corners: &[Vec2]) -> Result<Self, SolidError> {
         at_least("corners of the polygon", corners.len(), 3)?;
-        let next = corners[1..].iter().chain(&corners[..1]);
-        Self::straight("the corners of the polygon", corners.iter().zip(next), None)
+        Self::straight("the corners of the polygon", corners, corners[0], None)
     }
 
     /// Creates a rectangle with two opposite corners (length).
@@ -99,7 +98,8 @@ impl Outline {
     pub fn flat(start: f64, period: f64, height: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         let points = [Vec2::new(start, height), Vec2::new(start + period, height)];
-        Self::straight("the start and height", std::iter::once((&points[0], &points[1])), Some(period))
+        all_points_finite("the start and height", &points)?;
+        Self::from_pieces(vec![Piece::line(points[0], points[1])?], Some(period))
     }
 
     /// Returns the smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated.
@@ -142,21 +142,14 @@ impl Outline {
         positive("the period", period)?;
         at_least("points of the line", points.len(), 1)?;
         let last = points[0] + Vec2::new(period, 0.0);
-        let next = points[1..].iter().chain(std::iter::once(&last));
-        Self::straight("the points of the line", points.iter().zip(next), Some(period))
+        Self::straight("the points of the line", points, last, Some(period))
     }
 
-    fn straight<'a>(
-        name: &'static str,
-        pairs: impl Iterator<Item = (&'a Vec2, &'a Vec2)>,
-        period: Option<f64>,
-    ) -> Result<Self, SolidError> {
-        let pieces = pairs
-            .map(|(from, to)| {
-                all_points_finite(name, &[*from, *to])?;
-                Piece::line(*from, *to)
-            })
-            .collect::<Result<_, _>>()?;
+    /// Returns straight pieces through `points` and on to `last`.
+    fn straight(name: &'static str, points: &[Vec2], last: Vec2, period: Option<f64>) -> Result<Self, SolidError> {
+        all_points_finite(name, points)?;
+        let next = points[1..].iter().chain(std::iter::once(&last));
+        let pieces = points.iter().zip(next).map(|(from, to)| Piece::line(*from, *to)).collect::<Result<_, _>>()?;
         Self::from_pieces(pieces, period)
     }
 

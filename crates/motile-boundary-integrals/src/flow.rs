@@ -151,7 +151,10 @@ impl BoundaryIntegral {
             let [text, limit] = told_apart([turn, SHARPEST_TURN]);
             let spacing = decimals(3, spacing);
             let remedy = match rounding {
-                Some(length) => format!("give this wall a rounding of {} or more, or closer nodes", rounded_up(length)),
+                Some(length) => format!(
+                    "give this wall (not its outline) a rounding of {} or more, or closer nodes",
+                    rounded_up(length)
+                ),
                 None => "give this wall closer nodes".to_owned(),
             };
             let message = format!(

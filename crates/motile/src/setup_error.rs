@@ -93,6 +93,14 @@ pub enum SetupError {
         /// Depth that is allowed (length).
         allowed: f64,
     },
+    /// Body that starts around a rigid wall.
+    #[error("{key} contains {other}. Move one of them")]
+    Contains {
+        /// Key of the entry in the description, with its name if it has one.
+        key: String,
+        /// Key of the wall.
+        other: String,
+    },
     /// Droplet that starts in touch with another one, or with its own image.
     #[error("{key} touches {other} at {}. Leave a gap between them", place(*x, *y))]
     Touch {
@@ -165,7 +173,7 @@ impl SetupError {
     /// Returns the error for error with the key of the entry that it is about, unless it names it itself.
     pub(crate) fn of(self, key: &str) -> Self {
         match self {
-            Self::Value { .. } | Self::Entry { .. } => self,
+            Self::Value { .. } | Self::Entry { .. } | Self::Overlap { .. } | Self::Contains { .. } => self,
             other => Self::Entry { key: key.to_owned(), source: Box::new(other) },
         }
     }

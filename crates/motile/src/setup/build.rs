@@ -53,6 +53,8 @@ const FILM: f64 = 0.05;
 const TOUCHING: f64 = 1e-12;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
+/// Corners of a polygon by which a circle or its squeezed shape is compared with rigid walls.
+const CORNERS: usize = 400;
 
 /// Spacing of a mesh over the marker spacing if there is no grid, and the largest one over the droplet's radius. With
 /// 0.33 of it a swimmer of activity -4 is 8 % too fast, with 0.1 two (diffusion constant inside 0.05).
@@ -453,13 +455,32 @@ impl Setup {
             (false, _) => {}
         }
         let half_height = room - FILM * radius;
+        let squeezed = DropletShape::Squeezed { radius, half_height, to };
+        if nearest.is_some() && room < least {
+            let squeezed = Some(&squeezed).filter(|_| half_height > FLATTEST * radius);
+            self.check_circle(droplet, squeezed)?;
+        }
         if half_height <= FLATTEST * radius {
             return Err(SetupError::NoRoom { length, width, hint: self.mixed_units(droplet) });
         }
         if room < least && !droplet.squeezed {
             return Err(SetupError::wider_than_walls(radius, room, half_height, to));
         }
-        Ok(DropletShape::Squeezed { radius, half_height, to })
+        Ok(squeezed)
+    }
+
+    /// Refuses a circle that a rigid wall reaches into, as its shape does where it is squeezed along y: the wall stands
+    /// inside it, or at its side.
+    fn check_circle(&self, droplet: &DropletSetup, squeezed: Option<&DropletShape>) -> Result<(), SetupError> {
+        let number = self.droplets.iter().position(|other| std::ptr::eq(other, droplet));
+        let key = number.map_or_else(|| "the droplet".to_owned(), |number| format!("droplets[{number}]"));
+        let walls = self.even_walls()?;
+        let check = |shape: &DropletShape| -> Result<(), SetupError> {
+            let curve = shape.curve()?.0.translated(droplet.centre.into());
+            self.check_walls(&key, &curve.markers(CORNERS)?, &walls)
+        };
+        let fits = squeezed.is_some_and(|shape| check(shape).is_ok());
+        if fits { Ok(()) } else { check(&droplet.shape) }
     }
 }
 

@@ -73,8 +73,14 @@ impl Checked<'_> {
         self.require(value.abs() <= most, key, value, &format!("use a number from -{most:e} to {most:e}"))
     }
 
+    /// Names the first entry that is refused by its number.
     pub(super) fn all_finite(&self, key: &str, values: &[f64]) -> Result<(), SetupError> {
-        values.iter().try_for_each(|&value| self.finite(key, value))
+        values.iter().enumerate().try_for_each(|(k, &value)| self.finite(&format!("{key}[{k}]"), value))
+    }
+
+    /// Names the first coordinate that is refused by the numbers of its point and its axis.
+    pub(super) fn all_points_finite(&self, key: &str, points: &[[f64; 2]]) -> Result<(), SetupError> {
+        points.iter().enumerate().try_for_each(|(k, point)| self.all_finite(&format!("{key}[{k}]"), point))
     }
 
     /// Amplitudes of the waves of a shape.

@@ -586,5 +586,5 @@ pub(super) fn check_points(points: &[[f64; 2]], checked: &Checked<'_>, key: &str
     let remedy = format!("use from {} to {} points", MARKERS[0], MARKERS[1]);
     let wrong = points.len() < 8 || points.len() as f64 > MARKERS[1];
     checked.refuse_if(wrong, key, format!("{} points", points.len()), remedy)?;
-    checked.all_finite(key, points.as_flattened())
+    checked.all_points_finite(key, points)
 }

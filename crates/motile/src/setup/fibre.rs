@@ -425,7 +425,7 @@ impl FibreSetup {
             FibreShape::Points(list) | FibreShape::ClosedPoints(list) => {
                 let closed = matches!(self.shape, FibreShape::ClosedPoints(_));
                 let key = if closed { "shape.closed-points" } else { "shape.points" };
-                checked.all_finite(key, list.as_flattened())?;
+                checked.all_points_finite(key, list)?;
                 let [least, most] = [3.0, MARKERS[1]];
                 let text = format!("{} points", list.len());
                 let remedy = format!("use from {least} to {most} points");
@@ -483,7 +483,11 @@ impl BodySetup for FibreSetup {
         self.check_shape(checked, setup)?;
         if let Some(wave) = self.wave {
             let CurvatureWaveSetup { amplitude, wave_number, frequency, phase } = wave;
-            checked.all_finite("wave", &[amplitude, wave_number, frequency, phase])?;
+            for (name, value) in
+                [("amplitude", amplitude), ("wave-number", wave_number), ("frequency", frequency), ("phase", phase)]
+            {
+                checked.finite(&format!("wave.{name}"), value)?;
+            }
         }
         let ends = matches!(self.shape, FibreShape::ClosedPoints(_) | FibreShape::Across { .. });
         let remedy = "this shape has no ends that can be held. Use [\"free\", \"free\"]";
@@ -499,7 +503,9 @@ impl BodySetup for FibreSetup {
                 checked.refuse_if(first > last, &key("nodes"), format!("[{first}, {last}]"), remedy)?;
             }
             if let Some(TargetWaveSetup { displacement, wave_number, frequency, phase }) = target.wave {
-                checked.all_finite(&key("wave"), &[wave_number, frequency, phase])?;
+                for (name, value) in [("wave-number", wave_number), ("frequency", frequency), ("phase", phase)] {
+                    checked.finite(&key(&format!("wave.{name}")), value)?;
+                }
                 checked.all_finite(&key("wave.displacement"), &displacement)?;
             }
         }

@@ -238,8 +238,8 @@ impl FieldEntry {
             for &spacing in spacing {
                 checked.positive(&name("table.spacing"), spacing)?;
             }
-            for row in values {
-                checked.all_finite(&name("table.values"), row)?;
+            for (k, row) in values.iter().enumerate() {
+                checked.all_finite(&name(&format!("table.values[{k}]")), row)?;
             }
         }
         if let Some(ModulationSetup { frequency, mean, amplitude, phase }) = self.modulation {

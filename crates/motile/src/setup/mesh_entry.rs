@@ -198,7 +198,7 @@ impl MeshSetup {
         checked.refuse_if(many > MOST, &key("points"), format!("{many} points or triangles"), remedy)?;
         checked.positive(&key("scale"), self.scale)?;
         checked.all_finite(&key("place"), &self.place)?;
-        checked.all_finite(&key("points"), self.points.as_flattened())?;
+        checked.all_points_finite(&key("points"), &self.points)?;
         let factors = self.factors.iter().enumerate();
         factors.into_iter().try_for_each(|(k, one)| checked.positive(&key(&format!("factors[{k}].factor")), one.factor))
     }

@@ -21,11 +21,11 @@ impl Setup {
     /// Refuses bodies that reach beyond the region, overlap their own images, or lie in one another as they
     /// cannot, and droplets without fluid between them.
     pub(super) fn check_places(&self, bodies: &[Planned<'_>], flow: &AnyFlow) -> Result<(), SetupError> {
-        let view = &flow.fluid_view();
+        let (view, walls) = (&flow.fluid_view(), self.even_walls()?);
         for (number, Planned { corners, .. }) in bodies.iter().enumerate() {
             let key = self.key(number);
             self.fits(number, corners)?;
-            self.check_walls(&key, corners, flow)?;
+            self.check_walls(&key, corners, &walls)?;
         }
         self.check_length(bodies.iter().flat_map(|body| &body.corners))?;
         let surfaces = Surfaces::of(bodies.iter().map(|Planned { boundary, kind, .. }| (boundary.clone(), *kind)));

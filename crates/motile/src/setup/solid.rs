@@ -545,6 +545,69 @@ impl SolidOutline {
         }))
     }
 
+    /// Returns the key of this outline in the entry of its body.
+    fn key(&self) -> String {
+        match self {
+            Self::WallBelow(shape) => format!("outline.wall-below.{}", shape.name()),
+            Self::WallAbove(shape) => format!("outline.wall-above.{}", shape.name()),
+            Self::Island { of, .. } => format!("outline.island.of.{}", of.name()),
+            Self::WallBelowPoints(_) => "outline.wall-below-points".to_owned(),
+            Self::WallAbovePoints(_) => "outline.wall-above-points".to_owned(),
+            Self::WallBelowLine(_) => "outline.wall-below-line".to_owned(),
+            Self::WallAboveLine(_) => "outline.wall-above-line".to_owned(),
+            Self::Closed(_) => "outline.closed".to_owned(),
+            Self::Mesh(_) => "outline.mesh".to_owned(),
+            Self::Disc { .. } => "outline.disc".to_owned(),
+            Self::Ellipse { .. } => "outline.ellipse".to_owned(),
+            Self::Polygon { .. } => "outline.polygon".to_owned(),
+        }
+    }
+
+    /// Refuses values out of their range, of solids and of rigid walls alike.
+    pub(super) fn check(&self, checked: &Checked<'_>, region: &Region) -> Result<(), SetupError> {
+        let (key, [_, height]) = (self.key(), region.lengths());
+        match self {
+            Self::WallBelowPoints(points) | Self::WallAbovePoints(points) => {
+                checked.all_points_finite(&key, points)?;
+                let remedy =
+                    format!("use heights between the rigid walls of the region, at -{0} and {0}", 0.5 * height);
+                let mut heights = points.iter().map(|[_, y]| *y).enumerate();
+                heights.try_for_each(|(k, y)| {
+                    checked.require(y.abs() < 0.5 * height, &format!("{key}[{k}][1]"), y, &remedy)
+                })
+            }
+            Self::WallBelowLine(outline) | Self::WallAboveLine(outline) | Self::Closed(outline) => {
+                outline.check(checked, &key, true)
+            }
+            Self::WallBelow(shape) | Self::WallAbove(shape) | Self::Island { of: shape, .. } => {
+                let (key, width) = (format!("{key}.width"), shape.width());
+                checked.positive(&key, width)?;
+                let remedy =
+                    format!("the walls need room in the region. Use a number below {height}, the width of the region");
+                checked.require(!self.is_wall() || width < height, &key, width, &remedy)?;
+                let Self::Island { number, .. } = *self else { return Ok(()) };
+                let islands = shape.islands();
+                let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
+                checked.require(number < islands, "outline.island.number", number as f64, &remedy)
+            }
+            Self::Mesh(_) => Ok(()),
+            Self::Disc { centre, radius } => {
+                checked.all_finite("outline.disc.centre", centre)?;
+                checked.positive("outline.disc.radius", *radius)
+            }
+            Self::Ellipse { centre, half_axes } => {
+                checked.all_finite("outline.ellipse.centre", centre)?;
+                half_axes.iter().try_for_each(|&axis| checked.positive("outline.ellipse.half-axes", axis))
+            }
+            Self::Polygon { corners, rounding } => {
+                let remedy = "a polygon has at least 3 corners";
+                checked.refuse_if(corners.len() < 3, "outline.polygon.corners", corners.len(), remedy)?;
+                checked.all_points_finite("outline.polygon.corners", corners)?;
+                checked.not_negative("outline.polygon.rounding", *rounding)
+            }
+        }
+    }
+
     /// Returns true of a wall above the fluid.
     pub(super) fn is_above(&self) -> bool {
         matches!(self, Self::WallAbove(_) | Self::WallAbovePoints(_) | Self::WallAboveLine(_))
@@ -652,70 +715,30 @@ impl BodySetup for SolidSetup {
         let part = self.outline.is_wall() || matches!(self.outline, SolidOutline::Island { .. });
         let remedy = "use a region that is a channel";
         checked.refuse_if(no_channel && part, "outline", "a wall or an island", remedy)?;
+        self.outline.check(checked, &setup.region)?;
+        let [length, height] = setup.region.lengths();
         match &self.outline {
-            SolidOutline::WallBelowPoints(points) | SolidOutline::WallAbovePoints(points) => {
-                let side = if self.outline.is_above() { "above" } else { "below" };
-                let name = &format!("outline.wall-{side}-points");
-                checked.all_finite(name, points.as_flattened())?;
-                let [length, height] = setup.region.lengths();
-                across(name, height.max(length))?;
-                let remedy =
-                    format!("use heights between the rigid walls of the region, at -{0} and {0}", 0.5 * height);
-                points.iter().try_for_each(|[_, y]| checked.require(y.abs() < 0.5 * height, name, *y, &remedy))?;
+            SolidOutline::WallBelow(_) | SolidOutline::WallAbove(_) | SolidOutline::Island { .. } => {
+                across(&format!("{}.width", self.outline.key()), height.max(length))?;
             }
-            SolidOutline::WallBelowLine(outline) | SolidOutline::WallAboveLine(outline) => {
-                let side = if self.outline.is_above() { "above" } else { "below" };
-                let name = format!("outline.wall-{side}-line");
-                outline.check(checked, &name, true)?;
-                let [length, height] = setup.region.lengths();
-                across(&name, height.max(length))?;
-            }
-            SolidOutline::Closed(outline) => outline.check(checked, "outline.closed", true)?,
+            SolidOutline::WallBelowPoints(_)
+            | SolidOutline::WallAbovePoints(_)
+            | SolidOutline::WallBelowLine(_)
+            | SolidOutline::WallAboveLine(_) => across(&self.outline.key(), height.max(length))?,
+            SolidOutline::Closed(_) => {}
             SolidOutline::Mesh(mesh) => {
                 mesh.check(checked)?;
                 let remedy = "the mesh is given by its outline.mesh. Remove the key";
                 checked.refuse_if(self.mesh != MeshKind::default(), "mesh", "given", remedy)?;
                 checked.refuse_if(self.mesh_spacing.is_some(), "mesh-spacing", "given", remedy)?;
             }
-            SolidOutline::WallBelow(shape)
-            | SolidOutline::WallAbove(shape)
-            | SolidOutline::Island { of: shape, .. } => {
-                let outline = match &self.outline {
-                    SolidOutline::WallBelow(_) => "outline.wall-below".to_owned(),
-                    SolidOutline::WallAbove(_) => "outline.wall-above".to_owned(),
-                    _ => "outline.island.of".to_owned(),
-                };
-                let (width, height) = (shape.width(), setup.region.lengths()[1]);
-                let key = format!("{outline}.{}.width", shape.name());
-                checked.positive(&key, width)?;
-                across(&key, height.max(setup.region.lengths()[0]))?;
-                let remedy =
-                    format!("the walls need room in the region. Use a number below {height}, the width of the region");
-                checked.require(!self.outline.is_wall() || width < height, &key, width, &remedy)?;
-                let islands = shape.islands();
-                if let SolidOutline::Island { number, .. } = self.outline {
-                    let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
-                    checked.require(number < islands, "outline.island.number", number as f64, &remedy)?;
-                }
+            SolidOutline::Disc { radius, .. } => across("outline.disc.radius", *radius)?,
+            SolidOutline::Ellipse { half_axes, .. } => {
+                half_axes.iter().try_for_each(|&axis| across("outline.ellipse.half-axes", axis))?;
             }
-            SolidOutline::Disc { centre, radius } => {
-                checked.all_finite("outline.disc.centre", centre)?;
-                checked.positive("outline.disc.radius", *radius)?;
-                across("outline.disc.radius", *radius)?;
-            }
-            SolidOutline::Ellipse { centre, half_axes } => {
-                checked.all_finite("outline.ellipse.centre", centre)?;
-                for &axis in half_axes {
-                    checked.positive("outline.ellipse.half-axes", axis)?;
-                    across("outline.ellipse.half-axes", axis)?;
-                }
-            }
-            SolidOutline::Polygon { corners, rounding } => {
-                checked.all_finite("outline.polygon.corners", corners.as_flattened())?;
-                checked.not_negative("outline.polygon.rounding", *rounding)?;
-                for length in corners.as_flattened() {
-                    across("outline.polygon.corners", length.abs())?;
-                }
+            SolidOutline::Polygon { corners, .. } => {
+                let mut lengths = corners.as_flattened().iter();
+                lengths.try_for_each(|length| across("outline.polygon.corners", length.abs()))?;
             }
         }
         let remedy = "only walls touch the rigid walls of the region, where they can be pinned. Use tethered or \

@@ -77,7 +77,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
             ("method.grid.marker-spacing =", grid(GridMethod { marker_spacing: Some(bad), ..coarse })),
             ("droplets[0].viscosity =", one(DropletSetup { viscosity: Some(bad), ..DropletSetup::default() })),
             ("droplets[0].tension =", one(DropletSetup { tension: bad, ..DropletSetup::default() })),
-            ("droplets[0].centre =", one(DropletSetup { centre: [0.0, f64::NAN], ..DropletSetup::default() })),
+            ("droplets[0].centre[1] =", one(DropletSetup { centre: [0.0, f64::NAN], ..DropletSetup::default() })),
             ("droplets[0].shape.round.radius =", {
                 one(DropletSetup { shape: DropletShape::Round { radius: bad }, ..DropletSetup::default() })
             }),
@@ -352,7 +352,7 @@ fn walls_through_points() {
     }
     own.solids[0].outline = SolidOutline::WallBelowPoints(flat(-2.5));
     let said = own.check().unwrap_err().to_string();
-    assert!(said.starts_with("solids[0].outline.wall-below-points = -2.5: use heights between"), "{said}");
+    assert!(said.starts_with("solids[0].outline.wall-below-points[0][1] = -2.5: use heights between"), "{said}");
 }
 
 /// A layer needs sixteen points: a solid with fewer on its surface is refused by name and key before any work, and the
@@ -692,6 +692,21 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
         Setup { walls: vec![WallSetup::new(disc, 0.05)], ..at(6.0, 0.0) }
     };
     assert!(refused(&post(0.0, -1.5)).starts_with("droplets[0]: the body does not fit"));
+    // An obstacle inside the droplet or its image, and one in its side, where a squeezed droplet would be wider.
+    for (x, y, start) in [
+        (0.1, 0.2, "droplets[0] contains walls[0]. Move one of them"),
+        (5.9, 0.2, "droplets[0] contains walls[0]. Move one of them"),
+        (1.3, 0.0, "droplets[0] overlaps walls[0] by 0.2 at (1.0000, 0.0000)"),
+        (0.0, 0.0, "droplets[0] contains walls[0]. Move one of them"),
+    ] {
+        for squeezed in [false, true] {
+            let mut setup = post(x, y);
+            setup.droplets[0].squeezed = squeezed;
+            assert!(refused(&setup).starts_with(start), "{x} {y}: {}", refused(&setup));
+            setup.droplets[0].shape = DropletShape::Ellipse { half_axes: [1.0, 1.0] };
+            assert!(refused(&setup).starts_with(start), "{x} {y}: {}", refused(&setup));
+        }
+    }
     for setup in [post(1.53, 0.0), post(0.0, -1.53)] {
         assert_eq!(setup.shape(&setup.droplets[0]).unwrap(), DropletShape::Round { radius: 1.0 });
     }
@@ -1209,6 +1224,10 @@ fn numbers_of_shapes_and_shells_are_named() {
         let solids = vec![SolidSetup::new(outline, Material::Springs { shear: 1.0 })];
         Setup { method: layers(), droplets: Vec::new(), solids, ..Setup::default() }
     };
+    let polygon = |corner: [f64; 2], rounding: f64| {
+        let outline = SolidOutline::Polygon { corners: vec![[2.0, -0.5], corner, [2.0, 0.5]], rounding };
+        Setup { region: channel(6.0), walls: vec![WallSetup::new(outline, 0.1)], ..Setup::default() }
+    };
     let cases = [
         (
             "droplets[0].shape.squeezed.radius = -1",
@@ -1219,7 +1238,14 @@ fn numbers_of_shapes_and_shells_are_named() {
             Setup { droplets: Vec::new(), shells, ..Setup::default() }
         }),
         ("solids[0].outline.ellipse.half-axes = 0", ellipse([0.0, 0.5])),
-        ("droplets[0] overlaps a rigid wall by", {
+        ("walls[0].outline.polygon.corners[1][0] = NaN", polygon([f64::NAN, 0.0], 0.0)),
+        ("walls[0].outline.polygon.rounding = NaN", polygon([3.0, 0.0], f64::NAN)),
+        ("walls[0].outline.polygon.rounding = -0.1", polygon([3.0, 0.0], -0.1)),
+        ("walls[0].outline.disc.radius = 0", {
+            let disc = SolidOutline::Disc { centre: [0.0; 2], radius: 0.0 };
+            Setup { region: channel(6.0), walls: vec![WallSetup::new(disc, 0.1)], ..Setup::default() }
+        }),
+        ("droplets[0] overlaps walls[1] by", {
             let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
             let droplets =
                 vec![DropletSetup { centre: [0.0, 1.0], ..droplet(DropletShape::Ellipse { half_axes: [1.0; 2] }) }];
@@ -1515,6 +1541,20 @@ fn angles_in_degrees_get_a_hint() {
         |angle: f64| Setup { droplets: vec![DropletSetup { angle, ..DropletSetup::active(-2.0) }], ..Setup::default() };
     assert_eq!(at(90.0).hints(), ["droplets[0].angle = 90: angles are in radians. If you mean degrees, use 1.5708"]);
     assert!(at(-6.2).hints().is_empty());
+}
+
+/// Radii far from 1 beside the defaults, which are for lengths in radii.
+#[test]
+fn radii_in_other_units_than_the_defaults_get_a_hint() {
+    let hints = |radius: f64| {
+        let droplet = DropletSetup::active(-2.0).with_radius(radius);
+        Setup { region: Region::Plane, droplets: vec![droplet], ..Setup::default() }.hints()
+    };
+    for radius in [1e-6, 1e-3, 100.0] {
+        let hint = &hints(radius)[0];
+        assert!(hint.starts_with(&format!("droplets[0] has the radius {radius}; a radius of")), "{hint}");
+    }
+    assert!(hints(0.2).is_empty() && hints(5.0).is_empty());
 }
 
 #[test]

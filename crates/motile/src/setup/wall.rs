@@ -5,10 +5,10 @@ use elastic_solids::{ChannelShape, Outline};
 use motile_base::{
     Region, Vec2,
     internal::{Refuse as _, place},
-    polygon::CrossingFinder,
+    polygon::{self, CrossingFinder},
 };
 use motile_boundary_integrals::{RigidWall, Settings};
-use motile_scene::{Hydrodynamics, gap::Boundary};
+use motile_scene::gap::Boundary;
 use serde::{Deserialize, Serialize};
 
 use super::{Setup, SolidOutline, checked::Checked};
@@ -144,16 +144,10 @@ impl WallSetup {
         let checked = Checked { place };
         checked.positive("spacing", self.spacing)?;
         checked.not_negative("rounding", self.rounding)?;
-        match &self.outline {
-            SolidOutline::Closed(outline) => outline.check(&checked, "outline.closed", true)?,
-            SolidOutline::WallBelowLine(outline) => outline.check(&checked, "outline.wall-below-line", true)?,
-            SolidOutline::WallAboveLine(outline) => outline.check(&checked, "outline.wall-above-line", true)?,
-            _ => {}
-        }
         let remedy = format!("use a number from 1, for equal distances, to {MOST_GRADING}");
         checked.refuse_if(!(1.0..=MOST_GRADING).contains(&self.grading), "grading", self.grading, remedy)?;
         let region = match setup.region {
-            Region::Channel { .. } | Region::SlipChannel { .. } => return Ok(()),
+            Region::Channel { .. } | Region::SlipChannel { .. } => return self.outline.check(&checked, &setup.region),
             Region::Box { .. } => "a box",
             Region::Plane => "the plane",
             _ => "axisymmetric",
@@ -200,7 +194,7 @@ impl Setup {
     }
 
     /// Returns the rigid walls with nodes at equal distances.
-    fn even_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
+    pub(super) fn even_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
         let walls = self.walls.iter().enumerate();
         let built = walls.map(|(k, wall)| {
@@ -235,18 +229,31 @@ impl Setup {
         checked.refuse_if(beyond(farthest) >= -least * width, "outline", value, remedy)
     }
 
-    /// Refuses a droplet that starts beyond a rigid wall.
-    pub(super) fn check_walls(&self, key: &str, markers: &[Vec2], flow: &dyn Hydrodynamics) -> Result<(), SetupError> {
-        let periods = flow.fluid_view().domain.periods;
-        let Some((gap, marker)) = flow.walls().and_then(|walls| walls.smallest(markers, periods)) else {
-            return Ok(());
-        };
-        if gap > 0.0 {
-            return Ok(());
+    /// Refuses a body that starts beyond a rigid wall, or around one, by the corners of its boundary.
+    pub(super) fn check_walls(&self, key: &str, corners: &[Vec2], walls: &[RigidWall]) -> Result<(), SetupError> {
+        let [period, _] = self.region.lengths();
+        for (number, wall) in walls.iter().enumerate() {
+            let (key, other) = (key.to_owned(), wall_key(number));
+            let mut boundary = Boundary::default();
+            wall.add_to(&mut boundary);
+            boundary.sort();
+            let nearest = boundary.smallest(corners, [Some(period), None]);
+            if let Some((gap, corner)) = nearest.filter(|(gap, _)| *gap <= 0.0) {
+                let [x, y] = corners[corner].into();
+                return Err(SetupError::Overlap { key, other, x, y, depth: -gap, allowed: 0.0 });
+            }
+            let ahead = |x: f64| corners.iter().map(move |corner| (corner.x - x) / period);
+            let inside = wall.points().first().is_some_and(|point| {
+                let first = ahead(point.x).fold(f64::INFINITY, f64::min).ceil();
+                let last = ahead(point.x).fold(f64::NEG_INFINITY, f64::max).floor();
+                let images = (0..).map(|image| first + f64::from(image)).take_while(|image| *image <= last);
+                images.into_iter().any(|image| polygon::contains(corners, *point + Vec2::new(image * period, 0.0)))
+            });
+            if inside {
+                return Err(SetupError::Contains { key, other });
+            }
         }
-        let [x, y] = markers[marker].into();
-        let (key, other) = (key.to_owned(), "a rigid wall".to_owned());
-        Err(SetupError::Overlap { key, other, x, y, depth: -gap, allowed: 0.0 })
+        Ok(())
     }
 
     /// Returns the distance of a place from the nearest rigid wall (length).
