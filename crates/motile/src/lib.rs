@@ -27,6 +27,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! In regions of revolution, and in three dimensions, droplets are described in the same way ([`Region`](base::Region)).
+//! To record data during a run, attach an [`Observer`](scene::Observer). Attach [`Warnings`](scene::Warnings) too: they
+//! say what is not resolved.
+//!
 //! # Crates
 //!
 //! | module | crate | what it is |

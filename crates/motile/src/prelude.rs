@@ -7,4 +7,4 @@ pub use crate::setup::{
     HarmonicsMethod, IntegralMethod, LayersMethod, Method, NoiseSetup, Particles, Setup,
 };
 pub use motile_base::{Drive, Region, Vec2};
-pub use motile_scene::{Every, Handle, Observer, Scene, SceneError, StepSize, System};
+pub use motile_scene::{Every, Handle, Observer, Scene, SceneError, StepSize, System, Warnings};

@@ -56,7 +56,8 @@ impl Checked<'_> {
     /// Returns a length of a region.
     pub(super) fn length(&self, key: &str, value: f64) -> Result<(), SetupError> {
         let [least, most] = MAGNITUDES;
-        let remedy = format!("use a number from {least:e} to {most:e}, or the region plane if nothing is near");
+        let plane = if value > most { ", or the region plane if nothing is near" } else { "" };
+        let remedy = format!("use a number from {least:e} to {most:e}{plane}");
         self.require((least..=most).contains(&value), key, value, &remedy)
     }
 

@@ -90,7 +90,7 @@ impl Setup {
 
     /// Returns the description with the contents of its files in their place, so that it no longer depends on them.
     /// Paths are relative to a directory, for a scene file the one that it is in. Scene files that are read by
-    /// [`Setup::from_toml`] have this done for the directory of the program.
+    /// `Setup::from_toml` have this done for the directory of the program.
     ///
     /// # Errors
     /// Returns [`SetupError::Outline`] or [`SetupError::Solid`], with the key, for a file that cannot be read, or whose
