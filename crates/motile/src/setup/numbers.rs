@@ -13,7 +13,7 @@ const CORNERS: usize = 1000;
 /// Peclet number (no dimension) above which droplets swim also in narrow regions; in unbounded fluid they do above 2.
 const FAR_ABOVE_THRESHOLD: f64 = 10.0;
 /// Ratio of a radius to the default radius beyond which the defaults are hardly meant.
-const FAR: f64 = 30.0;
+const FAR: f64 = 4.0;
 
 /// Dimensionless numbers that govern a droplet with active particles (none has a dimension), R being the radius of the
 /// circle of its area. With the confinement (lengths of the region over R), they are all that a scene of one droplet
@@ -96,8 +96,8 @@ impl Setup {
 
     /// Returns a sentence for each kind of value that is legal but rarely meant. An activity may be positive, so that
     /// the droplet does not swim (of the first such droplet). An angle may be in degrees (the first one above a turn).
-    /// The shape of an outline may differ from its polygon ([`OutlineReport::remarks`]). A radius far from 1 may be in
-    /// other units than the defaults (of the first such droplet).
+    /// The shape of an outline may differ from its polygon ([`OutlineReport::remarks`]). If all radii are far from 1,
+    /// they may be in other units than the defaults (of the first droplet that keeps one).
     ///
     /// ```
     /// use motile::prelude::*;
@@ -118,12 +118,24 @@ impl Setup {
         };
         let outlines = self.outlines().unwrap_or_default();
         let remarks = outlines.iter().flat_map(OutlineReport::remarks);
-        let units = self.droplets.iter().enumerate().find_map(|(k, droplet)| {
-            let radius = droplet.shape.radius().ok().filter(|radius| !(1.0 / FAR..FAR).contains(radius))?;
-            let hint = self.mixed_units(droplet);
-            (!hint.is_empty()).then(|| format!("droplets[{k}] has the radius {radius}{hint}"))
-        });
-        positive.map(hint).chain(self.angle_in_degrees()).chain(units).chain(remarks).collect()
+        positive.map(hint).chain(self.angle_in_degrees()).chain(self.radius_in_other_units()).chain(remarks).collect()
+    }
+
+    /// Returns the hint for the first droplet with the default viscosity and diffusion, which are for lengths in radii,
+    /// if the radii of all are far from 1.
+    fn radius_in_other_units(&self) -> Option<String> {
+        let mut radii = self.droplets.iter().map(|droplet| droplet.shape.radius());
+        if radii.any(|radius| radius.map_or(true, |radius| (1.0 / FAR..FAR).contains(&radius))) {
+            return None;
+        }
+        let (viscosity, diffusion) = (Self::default().viscosity, Particles::default().diffusion);
+        self.droplets.iter().enumerate().find_map(|(number, droplet)| {
+            // A concentration may have any unit, and so may an activity; whoever has set neither of these two hardly
+            // thought of units.
+            let usual = droplet.particles.is_some_and(|particles| particles.diffusion == diffusion);
+            let hint = if usual && self.viscosity == viscosity { self.mixed_units(droplet) } else { String::new() };
+            (!hint.is_empty()).then(|| format!("droplets[{number}]: {}", hint.trim_start_matches("; ")))
+        })
     }
 
     /// Returns the hint for the first angle of a body that is more than a turn, if there is one.

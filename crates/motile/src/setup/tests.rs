@@ -1550,11 +1550,17 @@ fn radii_in_other_units_than_the_defaults_get_a_hint() {
         let droplet = DropletSetup::active(-2.0).with_radius(radius);
         Setup { region: Region::Plane, droplets: vec![droplet], ..Setup::default() }.hints()
     };
-    for radius in [1e-6, 1e-3, 100.0] {
+    for radius in [1e-6, 1e-3, 5.0, 100.0] {
         let hint = &hints(radius)[0];
-        assert!(hint.starts_with(&format!("droplets[0] has the radius {radius}; a radius of")), "{hint}");
+        assert!(
+            hint.starts_with(&format!("droplets[0]: a radius of {radius} and the defaults viscosity 100 (")),
+            "{hint}"
+        );
     }
-    assert!(hints(0.2).is_empty() && hints(5.0).is_empty());
+    assert!(hints(0.3).is_empty() && hints(3.0).is_empty());
+    let small = DropletSetup { centre: [3.0, 0.0], ..DropletSetup::active(-2.0).with_radius(0.1) };
+    let droplets = vec![small, DropletSetup::active(-2.0)];
+    assert!(Setup { region: Region::Plane, droplets, ..Setup::default() }.hints().is_empty());
 }
 
 #[test]
