@@ -27,9 +27,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! In regions of revolution, and in three dimensions, droplets are described in the same way ([`Region`](base::Region)).
-//! To record data during a run, attach an [`Observer`](scene::Observer). Attach [`Warnings`](scene::Warnings) too: they
-//! say what is not resolved.
+//! Droplets in regions of revolution and in three dimensions are described in the same way, see
+//! [`Region`](base::Region). To record data during a run, attach an [`Observer`](scene::Observer). Attach
+//! [`Warnings`](scene::Warnings) too: they say what is not resolved.
 //!
 //! # Crates
 //!
